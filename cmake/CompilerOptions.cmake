@@ -1,0 +1,15 @@
+# Warnings, native code and sanitizers, for our own targets only.
+
+add_library(skein_compiler_options INTERFACE)
+target_compile_options(skein_compiler_options INTERFACE
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-psabi>)
+if(SKEIN_NATIVE)
+  target_compile_options(skein_compiler_options INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang>:-march=native>)
+endif()
+if(SKEIN_SANITIZE)
+  target_compile_options(skein_compiler_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+                                                          -fno-omit-frame-pointer)
+  target_link_options(skein_compiler_options INTERFACE -fsanitize=address,undefined)
+endif()
+# The options are needed to build the layers, not to use them installed.
+install(TARGETS skein_compiler_options EXPORT skeinTargets)

@@ -1,0 +1,17 @@
+# Writes the version header, and touches it only when something changed.
+set(commit "unknown")
+if(GIT)
+  execute_process(COMMAND ${GIT} describe --always --dirty --abbrev=12 --exclude=* WORKING_DIRECTORY ${SOURCE_DIR}
+                  OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+  if(failed)
+    set(commit "unknown")
+  endif()
+endif()
+set(text "#pragma once\n#define SKEIN_VERSION \"${VERSION}\"\n#define SKEIN_COMMIT \"${commit}\"\n#define SKEIN_BUILD_TYPE \"${BUILD_TYPE}\"\n")
+set(old "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} old)
+endif()
+if(NOT old STREQUAL text)
+  file(WRITE ${OUTPUT} "${text}")
+endif()

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <skein/hydro/mobility.hpp>
+
+namespace skein {
+
+enum class Precision { in_double, in_single };
+
+/// The regularized Stokeslets of all sources, summed pair by pair: O(n_sources n_targets), exact to rounding in double,
+/// to about 1e-6 in single precision (positions, differences and long sums stay double).
+class DirectMobility final : public Mobility {
+ public:
+  /// @param viscosity  > 0, force * time / length^2
+  DirectMobility(double viscosity, Precision precision);
+
+  void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  double pairs() const override { return pairs_; }
+  std::string describe() const override;
+
+ private:
+  /// True where each pair can be weighed once for both of its nodes.
+  bool is_symmetric(const Sources& sources, const ConstVectors& target);
+
+  double viscosity_;
+  Precision precision_;
+  double pairs_ = 0.0;
+  ConstScalars checked_blobs_;  ///< the array that was last searched for unequal blobs, and what was found
+  bool equal_blobs_ = false;
+};
+
+}  // namespace skein

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <skein/config/scene_config.hpp>
+#include <skein/core/vec3.hpp>
+
+#include <vector>
+
+namespace skein {
+
+/// Where one fiber's nodes and sections lie in the arrays of all fibers, and its straight shape.
+/// Node `a` of section `s` has the index first_node + s * nodes_per_section + a.
+struct Fiber {
+  FiberConfig config;
+  int first_node = 0;
+  int first_section = 0;
+
+  int n_nodes() const { return config.sections * config.nodes_per_section; }
+  double spacing() const;  ///< between sections: the chord 2 R sin(pi / N_c) between neighbours on a section, length
+  double length() const;   ///< N_f * spacing, length
+};
+
+/// Fibers in the order of the scene, one after the other without gaps.
+std::vector<Fiber> make_fibers(const std::vector<FiberConfig>& configs);
+
+int count_nodes(const std::vector<Fiber>& fibers);
+int count_sections(const std::vector<Fiber>& fibers);
+
+/// Straight fibers: node a of section s at angle 2 pi a / N_c on the circle of radius R about
+/// center + (s - (N_f - 1)/2) spacing direction. Angle 0 points along y for a fiber along x with roll 0.
+/// @returns [n_nodes], length
+std::vector<Vec3> make_surface_nodes(const std::vector<Fiber>& fibers);
+
+/// The blob of every node. @returns [n_nodes], length
+std::vector<double> make_blobs(const std::vector<Fiber>& fibers);
+
+}  // namespace skein

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <skein/core/portable.hpp>
+
+#include "kernels/simd.hpp"
+
+#include <numbers>
+
+namespace skein {
+
+namespace math {
+
+KOKKOS_INLINE_FUNCTION double inverse_sqrt_cubed(const double x) {
+  const double y = inverse_sqrt(x);
+  return y * y * y;
+}
+KOKKOS_INLINE_FUNCTION float inverse_sqrt_cubed(const float x) {
+  const float y = inverse_sqrt(x);
+  return y * y * y;
+}
+inline simd::Pack<double> inverse_sqrt_cubed(const simd::Pack<double> x) { return simd::inverse_sqrt_cubed(x); }
+inline simd::Pack<float> inverse_sqrt_cubed(const simd::Pack<float> x) { return simd::inverse_sqrt_cubed(x); }
+
+}  // namespace math
+
+/// Velocity of the fluid due to a force spread over the blob phi = 15 eps^4 / (8 pi (r^2 + eps^2)^(7/2)):
+///
+///   8 pi viscosity u = [ (r^2 + 2 eps^2) f + (f . d) d ] / (r^2 + eps^2)^(3/2),   d = target - source
+///
+/// At r = 0: u = f / (4 pi viscosity eps). Source: Cortez, Fauci, Medovikov, Phys. Fluids 17, 031504 (2005).
+namespace regularized_stokeslet {
+
+inline constexpr int flops_per_pair = 32;  ///< an inverse square root counted as one
+
+/// The factor 1 / (8 pi viscosity), applied to the forces once instead of to every pair.
+inline double scale(const double viscosity) { return 1.0 / (8.0 * std::numbers::pi * viscosity); }
+
+/// (r^2 + eps^2)^(-3/2) and (r^2 + 2 eps^2) (r^2 + eps^2)^(-3/2) of one pair: symmetric in source and target.
+template <class Lanes>
+struct Weights {
+  Lanes along;
+  Lanes isotropic;
+};
+
+/// Lanes is a number, or a CPU vector with one target in each lane; BlobSquared may be a number for all lanes.
+template <class Lanes, class BlobSquared>
+KOKKOS_FORCEINLINE_FUNCTION Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes dz,
+                                                   const BlobSquared blob_squared) {
+  const Lanes core_squared = dx * dx + (dy * dy + (dz * dz + blob_squared));
+  const Lanes along = math::inverse_sqrt_cubed(core_squared);
+  return {along, along * (core_squared + blob_squared)};
+}
+
+/// u += 8 pi viscosity times the velocity due to the force f.
+template <class Lanes, class Force>
+KOKKOS_FORCEINLINE_FUNCTION void add(const Weights<Lanes> weight, const Lanes dx, const Lanes dy, const Lanes dz,
+                                     const Force fx, const Force fy, const Force fz, Lanes& ux, Lanes& uy, Lanes& uz) {
+  const Lanes along = weight.along * (fx * dx + fy * dy + fz * dz);
+  ux += weight.isotropic * fx + along * dx;
+  uy += weight.isotropic * fy + along * dy;
+  uz += weight.isotropic * fz + along * dz;
+}
+
+}  // namespace regularized_stokeslet
+}  // namespace skein

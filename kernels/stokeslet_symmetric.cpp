@@ -1,0 +1,167 @@
+#include "kernels/stokeslet_direct.hpp"
+
+#include <skein/core/error.hpp>
+
+#include "kernels/stokeslet_block.hpp"
+
+#include <cstdint>
+#include <utility>
+
+// Nodes are cut into n_tiles tiles. A tournament pairs every tile with every other: in each of its n_tiles - 1 rounds no
+// tile plays twice, so that the pairs of a round run in parallel without buffers or atomics, and every node receives its
+// contributions in the order of the rounds whatever the number of threads.
+
+namespace skein {
+namespace {
+
+using simd::Pack;
+
+constexpr int side_nodes = 192;   // of a tile that are in flight at once
+constexpr int nodes_per_tile = 96;  // aimed at; few nodes make few tiles, many make max_tiles larger ones
+constexpr int max_tiles = 64;
+
+template <class Real>
+using Side = NodeTile<Real, side_nodes>;
+
+Run tile_run(const int tile, const int n_tiles, const int n_nodes) {
+  const int first = static_cast<int>(static_cast<std::int64_t>(n_nodes) * tile / n_tiles);
+  const int last = static_cast<int>(static_cast<std::int64_t>(n_nodes) * (tile + 1) / n_tiles);
+  return {first, last - first};
+}
+
+/// A round of the tournament after the circle method: player n_tiles - 1 stays, the others rotate.
+void paired_tiles(const int round, const int match, const int n_tiles, int& one, int& other) {
+  const int n_rotating = n_tiles - 1;
+  one = match == 0 ? n_rotating : (round + match) % n_rotating;
+  other = match == 0 ? round : (round - match + n_rotating) % n_rotating;
+}
+
+/// Both directions between two sides: u += S f, v += S g with the weights computed once.
+template <bool with_low, class Real>
+void exchange(const Side<Real>& a, const Side<Real>& b, const Real blob_squared, double (&velocity_a)[3][side_nodes],
+              double (&velocity_b)[3][side_nodes]) {
+  constexpr int width = simd::width<Real>;
+  // Reactions on b, a lane for each lane of a: summed over lanes once, at the end.
+  alignas(simd::bytes) Pack<Real> reaction[side_nodes][3] = {};
+  for (int i = 0; i < a.n_padded(); i += width) {
+    const Pack<Real> x = simd::load_pack(&a.high[0][i]), y = simd::load_pack(&a.high[1][i]),
+                     z = simd::load_pack(&a.high[2][i]);
+    [[maybe_unused]] Pack<Real> x_low, y_low, z_low;
+    if constexpr (with_low) {
+      x_low = simd::load_pack(&a.low[0][i]);
+      y_low = simd::load_pack(&a.low[1][i]);
+      z_low = simd::load_pack(&a.low[2][i]);
+    }
+    const Pack<Real> gx = simd::load_pack(&a.force[0][i]), gy = simd::load_pack(&a.force[1][i]),
+                     gz = simd::load_pack(&a.force[2][i]);
+    Pack<Real> ux = {}, uy = {}, uz = {};
+    for (int j = 0; j < b.n_nodes; ++j) {
+      Pack<Real> dx = x - b.high[0][j];
+      Pack<Real> dy = y - b.high[1][j];
+      Pack<Real> dz = z - b.high[2][j];
+      if constexpr (with_low) {
+        dx += x_low - b.low[0][j];
+        dy += y_low - b.low[1][j];
+        dz += z_low - b.low[2][j];
+      }
+      const auto weight = regularized_stokeslet::weights(dx, dy, dz, blob_squared);
+      regularized_stokeslet::add(weight, dx, dy, dz, b.force[0][j], b.force[1][j], b.force[2][j], ux, uy, uz);
+      // d changes its sign for the reaction, and enters twice.
+      regularized_stokeslet::add(weight, dx, dy, dz, gx, gy, gz, reaction[j][0], reaction[j][1], reaction[j][2]);
+    }
+    for (int lane = 0; lane < width && i + lane < a.n_nodes; ++lane) {
+      velocity_a[0][i + lane] += static_cast<double>(ux[lane]);
+      velocity_a[1][i + lane] += static_cast<double>(uy[lane]);
+      velocity_a[2][i + lane] += static_cast<double>(uz[lane]);
+    }
+  }
+  for (int j = 0; j < b.n_nodes; ++j)
+    for (int c = 0; c < 3; ++c) velocity_b[c][j] += simd::sum_lanes<Real>(reaction[j][c]);
+}
+
+void add_to(const VectorView<HostSpace>& total, const Run run, const double (&velocity)[3][side_nodes]) {
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < run.count; ++i) total(run.first + i, c) += velocity[c][i];
+}
+
+template <class Real>
+void load_side(Side<Real>& side, const HostSources& nodes, const Run run, const Vec3 origin) {
+  side.template load_positions<HostSpace>(nodes.position, run.first, run.count, origin);
+  side.template load_forces<HostSpace>(nodes.force, run.first, nodes.scale);
+}
+
+/// Each pair of nodes, one in each run, once.
+template <class Real>
+void add_between(const HostSources& nodes, const Run one, const Run other, const VectorView<HostSpace>& velocity) {
+  const Real blob_squared = static_cast<Real>(nodes.blob(0) * nodes.blob(0));
+  Side<Real> a, b;
+  for (int i = 0; i < one.count; i += side_nodes) {
+    const Run run_a{one.first + i, math::smaller(side_nodes, one.count - i)};
+    const Vec3 origin = load(nodes.position, run_a.first);
+    load_side(a, nodes, run_a, origin);
+    double velocity_a[3][side_nodes] = {};
+    for (int j = 0; j < other.count; j += side_nodes) {
+      const Run run_b{other.first + j, math::smaller(side_nodes, other.count - j)};
+      load_side(b, nodes, run_b, origin);
+      double velocity_b[3][side_nodes] = {};
+      if (needs_low_parts(a, b))
+        exchange<Side<Real>::split>(a, b, blob_squared, velocity_a, velocity_b);
+      else
+        exchange<false>(a, b, blob_squared, velocity_a, velocity_b);
+      add_to(velocity, run_b, velocity_b);
+    }
+    add_to(velocity, run_a, velocity_a);
+  }
+}
+
+/// Both directions of each pair inside a run, one after the other: simpler, and 1 / n_tiles of the work.
+template <class Real>
+void add_within(const HostSources& nodes, const Run run, const VectorView<HostSpace>& velocity) {
+  for (int i = 0; i < run.count; i += block_targets) {
+    bool given = false;
+    const auto whole_run = [&](Run& sources) {
+      sources = run;
+      return !std::exchange(given, true);
+    };
+    add_runs_to_targets<Real>(nodes, whole_run, nodes.position,
+                              {run.first + i, math::smaller(block_targets, run.count - i)}, velocity);
+  }
+}
+
+template <class Real>
+void add_symmetric(const HostSpace& space, const HostSources& nodes, const VectorView<HostSpace>& velocity) {
+  using Policy = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>;
+  const int n_nodes = nodes.position.extent_int(0);
+  const int n_tiles = math::smaller(max_tiles, n_nodes / nodes_per_tile / 2 * 2);
+
+  Kokkos::parallel_for("skein::add_stokeslet_velocity_within_tiles", Policy(space, 0, n_tiles), [=](const int tile) {
+    add_within<Real>(nodes, tile_run(tile, n_tiles, n_nodes), velocity);
+  });
+  for (int round = 0; round < n_tiles - 1; ++round)
+    Kokkos::parallel_for("skein::add_stokeslet_velocity_between_tiles", Policy(space, 0, n_tiles / 2),
+                         [=](const int match) {
+                           int one, other;
+                           paired_tiles(round, match, n_tiles, one, other);
+                           add_between<Real>(nodes, tile_run(one, n_tiles, n_nodes),
+                                             tile_run(other, n_tiles, n_nodes), velocity);
+                         });
+}
+
+}  // namespace
+
+void add_symmetric_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,
+                                      const ConstVectorView<HostSpace>& force, const ConstScalarView<HostSpace>& blob,
+                                      const VectorView<HostSpace>& velocity, const double viscosity,
+                                      const PairPrecision precision) {
+  SKEIN_REQUIRE(position.extent(0) == force.extent(0) && position.extent(0) == blob.extent(0) &&
+                    position.extent(0) == velocity.extent(0),
+                "positions, forces, blobs and velocities differ in number");
+  SKEIN_REQUIRE(position.extent_int(0) >= min_symmetric_nodes, "too few nodes for the symmetric sum");
+  const HostSources nodes{position, force, blob, regularized_stokeslet::scale(viscosity)};
+  if (precision == PairPrecision::in_double)
+    add_symmetric<double>(space, nodes, velocity);
+  else
+    add_symmetric<float>(space, nodes, velocity);
+}
+
+}  // namespace skein

@@ -1,0 +1,116 @@
+// Pairs per second of the direct sum: general and symmetric, double and single precision, beside a plain OpenMP loop in
+// the same run. Usage: bench_direct [nodes...]   (threads: OMP_NUM_THREADS)
+
+#include <skein/core/runtime.hpp>
+#include <skein/scene/fiber.hpp>
+
+#include "harness.hpp"
+#include "kernels/stokeslet_direct.hpp"
+#include "plain_loop.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <random>
+#include <string>
+
+namespace {
+
+using namespace skein;
+
+constexpr double viscosity = 1.7;
+
+struct Result {
+  std::string name;
+  double pairs_per_second;
+  double error;  ///< 2-norm against the plain double loop
+};
+
+double relative_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double difference = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference += (a[i] - b[i]) * (a[i] - b[i]);
+    size += b[i] * b[i];
+  }
+  return std::sqrt(difference / size);
+}
+
+std::vector<double> flat(const Vectors& velocity) {
+  std::vector<double> result;
+  const auto list = to_host(velocity);
+  for (const double Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
+    for (const Vec3& v : list) result.push_back(v.*c);
+  return result;
+}
+
+std::vector<Result> bench(const int sections) {
+  FiberConfig config;
+  config.sections = sections;
+  const auto fibers = make_fibers({config});
+  const auto nodes = make_surface_nodes(fibers);
+  const int n = static_cast<int>(nodes.size());
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<Vec3> forces(nodes.size());
+  for (Vec3& f : forces) f = {uniform(random), uniform(random), uniform(random)};
+
+  const Vectors position = to_device("position", nodes);
+  const Vectors force = to_device("force", forces);
+  const Scalars blob = to_device("blob", make_blobs(fibers));
+  const Vectors velocity("velocity", n);
+  const auto general = [&](const PairPrecision precision) {
+    Kokkos::deep_copy(velocity, 0.0);
+    add_stokeslet_velocity<ExecSpace>(ExecSpace(), position, force, blob, position, velocity, viscosity, precision);
+  };
+
+  std::vector<double> x = flat(position), f = flat(force), u(3 * nodes.size());
+  std::vector<float> x_float(x.begin(), x.end()), f_float(f.begin(), f.end()), u_float(u.size());
+  std::vector<std::string> names = {"plain loop, double", "plain loop, single", "general, double", "general, single"};
+  std::vector<std::function<void()>> bodies = {
+      [&] { plain_loop(n, x.data(), f.data(), config.blob, viscosity, u.data()); },
+      [&] {
+        plain_loop(n, x_float.data(), f_float.data(), static_cast<float>(config.blob), static_cast<float>(viscosity),
+                   u_float.data());
+      },
+      [&] { general(PairPrecision::in_double); }, [&] { general(PairPrecision::in_single); }};
+  if constexpr (on_host<ExecSpace>) {
+    const auto symmetric = [&](const PairPrecision precision) {
+      Kokkos::deep_copy(velocity, 0.0);
+      add_symmetric_stokeslet_velocity(ExecSpace(), position, force, blob, velocity, viscosity, precision);
+    };
+    names.insert(names.end(), {"symmetric, double", "symmetric, single"});
+    bodies.push_back([=] { symmetric(PairPrecision::in_double); });
+    bodies.push_back([=] { symmetric(PairPrecision::in_single); });
+  }
+  const int repeats = n < 4000 ? 21 : n < 12000 ? 7 : 3;
+  const auto seconds = perf::median_seconds(repeats, bodies);
+  std::vector<Result> results;
+  bodies[0]();
+  const std::vector<double> exact = u;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b]();
+    const auto got = b == 0 ? exact : b == 1 ? std::vector<double>(u_float.begin(), u_float.end()) : flat(velocity);
+    results.push_back({names[b], static_cast<double>(n) * n / seconds[b], relative_difference(got, exact)});
+  }
+  return results;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Runtime runtime;
+  perf::print_context();
+  std::vector<int> sections;
+  for (int i = 1; i < argc; ++i) sections.push_back(std::max(2, std::atoi(argv[i]) / 18));
+  if (sections.empty()) sections = {80, 113, 301, 536, 1313};
+  std::printf("nodes,method,pairs_per_second,times_plain_loop_of_same_precision,error\n");
+  for (const int n_sections : sections) {
+    const auto results = bench(n_sections);
+    for (std::size_t r = 0; r < results.size(); ++r)
+      std::printf("%d,\"%s\",%.3e,%.2f,%.1e\n", 18 * n_sections, results[r].name.c_str(), results[r].pairs_per_second,
+                  results[r].pairs_per_second / results[r % 2].pairs_per_second, results[r].error);
+    std::fflush(stdout);
+  }
+  return 0;
+}

@@ -1,0 +1,56 @@
+#include <skein/hydro/direct_mobility.hpp>
+
+#include <skein/core/error.hpp>
+
+#include "kernels/stokeslet_direct.hpp"
+
+#include <algorithm>
+
+namespace skein {
+namespace {
+
+PairPrecision pair_precision(const Precision precision) {
+  return precision == Precision::in_double ? PairPrecision::in_double : PairPrecision::in_single;
+}
+
+bool all_equal(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [&](const double value) { return value == values.front(); });
+}
+
+}  // namespace
+
+DirectMobility::DirectMobility(const double viscosity, const Precision precision)
+    : viscosity_(viscosity), precision_(precision) {
+  SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
+}
+
+bool DirectMobility::is_symmetric(const Sources& sources, const ConstVectors& target) {
+  if (!on_host<ExecSpace> || target.data() != sources.position.data() ||
+      target.extent_int(0) != sources.position.extent_int(0) || target.extent_int(0) < min_symmetric_nodes)
+    return false;
+  if (checked_blobs_.data() != sources.blob.data() || checked_blobs_.extent(0) != sources.blob.extent(0)) {
+    checked_blobs_ = sources.blob;  // a counted reference: the same address cannot come to mean another array
+    equal_blobs_ = all_equal(to_host(sources.blob));
+  }
+  return equal_blobs_;
+}
+
+void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
+  pairs_ += static_cast<double>(sources.position.extent(0)) * static_cast<double>(target.extent(0));
+  if constexpr (on_host<ExecSpace>) {
+    if (is_symmetric(sources, target)) {
+      add_symmetric_stokeslet_velocity(ExecSpace(), sources.position, sources.force, sources.blob, velocity, viscosity_,
+                                       pair_precision(precision_));
+      return;
+    }
+  }
+  add_stokeslet_velocity<ExecSpace>(ExecSpace(), sources.position, sources.force, sources.blob, target, velocity,
+                                    viscosity_, pair_precision(precision_));
+}
+
+std::string DirectMobility::describe() const {
+  return precision_ == Precision::in_double ? "direct sum, pairs in double precision"
+                                            : "direct sum, pairs in single precision (about 1e-6)";
+}
+
+}  // namespace skein
