@@ -16,11 +16,12 @@ class Euler final : public Integrator {
   std::string describe() const override;
 
  private:
-  std::string explain_instability(const State& state);
+  std::string explain_instability() const;
 
   RightHandSide& rhs_;
   double dt_;
   double length_scale_;
+  double spectral_radius_ = 0.0;  ///< at the start, 1 / time; 0 before the first step
   double step_start_ = 0.0;
   double step_end_ = 0.0;
   Vectors start_;     ///< positions at step_start_
