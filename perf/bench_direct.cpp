@@ -39,8 +39,8 @@ double relative_difference(const std::vector<double>& a, const std::vector<doubl
 std::vector<double> flat(const Vectors& velocity) {
   std::vector<double> result;
   const auto list = to_host(velocity);
-  for (const double Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z})
-    for (const Vec3& v : list) result.push_back(v.*c);
+  for (int c = 0; c < 3; ++c)
+    for (const Vec3& v : list) result.push_back(c == 0 ? v.x : c == 1 ? v.y : v.z);
   return result;
 }
 
