@@ -16,6 +16,7 @@ packages=(
 )
 # What only running the tests needs; ParaView brings VTK with its XDMF readers, which python3-vtk9 lacks.
 test_packages=(python3-paraview strace)
+fuzzing_packages=(clang-14 libclang-rt-14-dev)
 movie_packages=(ffmpeg)
 
 usage() {
@@ -29,6 +30,7 @@ built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler.
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
   --with-tests     also install what only running the tests needs (ParaView, strace)
+  --with-fuzzing   also install clang 14 with libFuzzer, which only tools/torture.sh needs
   --with-movies    also install ffmpeg, which only `skein movie` needs
   --print-kokkos   print nothing but Kokkos' prefix on stdout; messages go to stderr
   --help           this text
@@ -266,6 +268,7 @@ while (($#)); do
     --backend=*) backend=${1#*=} ;;
     --serial) backend=serial ;;
     --with-tests) packages+=("${test_packages[@]}") ;;
+    --with-fuzzing) packages+=("${fuzzing_packages[@]}") ;;
     --with-movies) packages+=("${movie_packages[@]}") ;;
     --print-kokkos) only_prefix=true ;;
     -h | --help) usage && exit ;;

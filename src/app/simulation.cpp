@@ -242,7 +242,9 @@ void Simulation::report_end(const ExitCode code) {
                         {"springs_and_flow_seconds", card.springs_and_flow},
                         {"integrator_seconds", card.integrator},
                         {"observables_seconds", card.observables},
-                        {"output_seconds", card.output}});
+                        {"output_seconds", card.output},
+                        {"checkpoint_seconds", checkpoint_seconds_},
+                        {"frame_seconds", frame_seconds_}});
 }
 
 CostCard Simulation::make_cost_card() const {

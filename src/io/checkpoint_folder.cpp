@@ -88,7 +88,7 @@ std::uint64_t CheckpointFolder::write(const Checkpoint& checkpoint, const int ke
 std::string find_checkpoint_fault(const RunFolder& folder, const Checkpoint& checkpoint) {
   if (checkpoint.text("scene.xxh3") != checksum_of_file(folder.scene()))
     return "it belongs to another scene than this folder's scene.toml";
-  return find_missing_segments(folder, read_trajectory_end(checkpoint));
+  return find_missing_segments(folder, read_trajectory_end(checkpoint), true);
 }
 
 ResumePoint find_resume_point(const RunFolder& folder) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <string_view>
 
 struct XXH3_state_s;
 
@@ -24,5 +26,12 @@ class Checksum {
  private:
   XXH3_state_s* state_;
 };
+
+/// 24 bytes for the end of a file: "SKEINSUM" and XXH3, 128 bits, canonical, of all bytes before. HDF5 ignores what
+/// follows its own end, but may crash on a damaged file: whoever is not sure of a file looks at its seal first.
+std::string make_seal(std::string_view bytes);
+
+/// What is wrong with a sealed file; empty if nothing is.
+std::string find_seal_fault(const std::filesystem::path& path);
 
 }  // namespace skein

@@ -2,12 +2,17 @@
 
 #include <skein/core/error.hpp>
 
+#include "checksum.hpp"
+
 #include <fmt/format.h>
 
 namespace skein {
 
-Hdf5Reader::Hdf5Reader(std::filesystem::path path)
-    : path_(std::move(path)), file_(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose) {
+Hdf5Reader::Hdf5Reader(std::filesystem::path path, const bool check_seal)
+    : path_(std::move(path)), file_(-1, H5Fclose) {
+  const std::string fault = check_seal ? find_seal_fault(path_) : "";
+  if (!fault.empty()) throw Error(ExitCode::damaged_data, fault);
+  file_ = {H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
   if (!file_.valid()) fail("/");
 }
 

@@ -14,7 +14,8 @@ namespace skein {
 /// @throws Error(damaged_data) from every function, naming the file and the object
 class Hdf5Reader {
  public:
-  explicit Hdf5Reader(std::filesystem::path path);
+  /// @param check_seal  read all of the file first, and open it only if it is as it was written
+  explicit Hdf5Reader(std::filesystem::path path, bool check_seal = true);
 
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;

@@ -3,6 +3,8 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
 
+#include "checksum.hpp"
+
 #include <limits>
 #include <memory>
 
@@ -185,6 +187,7 @@ std::uint64_t Hdf5Writer::commit() {
 
   AtomicFile file(path_);
   file.write(image.get(), static_cast<std::size_t>(n_bytes));
+  file.write(make_seal({image.get(), static_cast<std::size_t>(n_bytes)}));
   file.commit();
   return file.bytes_written();
 }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -163,12 +164,12 @@ void RunChecker::compare_with_index() {
 }
 
 void RunChecker::check_unlisted_segments() {
+  std::set<std::string> listed;
+  for (std::int64_t number = 0; number < listed_; ++number) listed.insert(segment_name(number));
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder_.segments(), ignored)) {
     const std::string name = "segments/" + entry.path().filename().string();
-    bool listed = false;
-    for (std::int64_t number = 0; number < listed_ && !listed; ++number) listed = name == segment_name(number);
-    if (!listed)
+    if (listed.count(name) == 0)
       check_.notes.push_back(
           fmt::format("'{}' is not in the index; 'skein resume' removes it and computes it again", name));
   }
@@ -195,7 +196,7 @@ void RunChecker::check_checkpoint(const std::int64_t number) {
     const auto found = ends_.find(end.segments);
     if (found == ends_.end()) {
       // A segment that the index does not list yet is no damage: the checkpoint says whether it is whole.
-      const std::string fault = find_missing_segments(folder_, end);
+      const std::string fault = find_missing_segments(folder_, end, true);
       if (!fault.empty()) report("checkpoint '{}': {}", path.string(), fault);
       return;
     }

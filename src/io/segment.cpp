@@ -36,8 +36,8 @@ std::uint64_t write_segment(const RunFolder& folder, const Series& frames, const
   return file.commit();
 }
 
-SegmentLabel read_segment_label(const RunFolder& folder, const std::int64_t number) {
-  const Hdf5Reader file(folder.path() / segment_name(number));
+SegmentLabel read_segment_label(const RunFolder& folder, const std::int64_t number, const bool check_seal) {
+  const Hdf5Reader file(folder.path() / segment_name(number), check_seal);
   SegmentLabel label;
   label.segment.number = file.integer_attribute("/", "number");
   label.segment.first_frame = file.integer_attribute("/", "first_frame");

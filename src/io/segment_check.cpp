@@ -24,8 +24,8 @@ void add_series(Checksum& checksum, const Hdf5Reader& file, const Series& series
 SegmentMoments read_segment_moments(const RunFolder& folder, const std::int64_t number, const Series& frames,
                                     const Series& records) {
   SegmentMoments moments;
-  moments.label = read_segment_label(folder, number);
-  const Hdf5Reader file(folder.path() / segment_name(number));
+  moments.label = read_segment_label(folder, number, true);
+  const Hdf5Reader file(folder.path() / segment_name(number), false);
   Checksum checksum;
   checksum.add(moments.label.previous_checksum);
   add_series(checksum, file, frames);

@@ -23,12 +23,12 @@ TrajectoryEnd read_trajectory_end(const Checkpoint& checkpoint) {
           checkpoint.integer("trajectory.records"), checkpoint.text("trajectory.xxh3")};
 }
 
-std::string find_missing_segments(const RunFolder& folder, const TrajectoryEnd& end) {
+std::string find_missing_segments(const RunFolder& folder, const TrajectoryEnd& end, const bool check_seals) {
   std::string checksum = checksum_of_file(folder.scene());
   std::int64_t n_frames = 0, n_records = 0;
   for (std::int64_t number = 0; number < end.segments; ++number) {
     try {
-      const SegmentLabel label = read_segment_label(folder, number);
+      const SegmentLabel label = read_segment_label(folder, number, check_seals);
       if (label.segment.number != number || label.previous_checksum != checksum ||
           label.segment.first_frame != n_frames || label.segment.first_record != n_records)
         return fmt::format("its trajectory is broken: '{}' does not follow the segment before", segment_name(number));

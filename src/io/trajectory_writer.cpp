@@ -78,11 +78,11 @@ struct TrajectoryWriter::Parts {
 };
 
 void TrajectoryWriter::Parts::take_over(const TrajectoryEnd& end) {
-  const std::string fault = find_missing_segments(folder, end);
+  const std::string fault = find_missing_segments(folder, end, false);
   if (!fault.empty()) throw Error(ExitCode::damaged_data, fault);
   double last_time = std::numeric_limits<double>::quiet_NaN();
   for (std::int64_t number = 0; number < end.segments; ++number) {
-    SegmentLabel label = read_segment_label(folder, number);
+    SegmentLabel label = read_segment_label(folder, number, false);
     if (label.segment.n_frames > 0) {
       last_time = label.segment.last_time;
       frames.set_last_moment(label.last_frame_step, last_time);

@@ -6,9 +6,10 @@ import re
 
 from program import DONE, MISSING, SCENE_ERROR, require
 
-VALUES = ["nan", "inf", "-inf", "-1", "0", "1e300", "-1e300", "1e-300", "true", '"word"', "[]", "{}", "[1, 2]", "99999999999999999999",
-          "1979-05-27", "''", "0x10", "[nan, 0, 0]", ""]
-PIECES = [b'"', b"'", b"[", b"]", b"{", b"}", b"=", b".", b"\n", b"#", b"\x00", b"\xff", b"\xc3", b"\\u0", b'"""', b"[[fiber]]"]
+VALUES = ["nan", "inf", "-inf", "-1", "0", "1e300", "-1e300", "1e-300", "true", '"word"', "[]", "{}", "[1, 2]",
+          "99999999999999999999", "1979-05-27", "''", "0x10", "[nan, 0, 0]", ""]
+PIECES = [b'"', b"'", b"[", b"]", b"{", b"}", b"=", b".", b"\n", b"#", b"\x00", b"\xff", b"\xc3", b"\\u0", b'"""',
+          b"[[fiber]]"]
 
 
 def change_value(lines, draw):
@@ -55,12 +56,13 @@ def judge(program, number, scene):
     path.parent.mkdir(exist_ok=True)
     path.write_bytes(scene)
     output = path.parent / "result"
-    # What is valid after all would be computed: --dry-run stops before anything is written, and says what it would take.
     result = program.call([program.path, "validate", path], timeout=20)
     valid = result.returncode == DONE
-    require(valid or result.returncode in (SCENE_ERROR, MISSING), f"scene {number}: exit code {result.returncode}: {result.stderr}\n{scene!r}")
+    known = valid or result.returncode in (SCENE_ERROR, MISSING)
+    require(known, f"scene {number}: exit code {result.returncode}: {result.stderr}\n{scene!r}")
     if not valid:
-        require(re.search(r"scene\.toml:\d+:\d+: ", result.stderr), f"scene {number}: no place is named: {result.stderr}")
+        named = re.search(r"scene\.toml:\d+:\d+: ", result.stderr)
+        require(named, f"scene {number}: no place is named: {result.stderr}")
         if number % 10 == 0:
             refused = program.call([program.path, "run", path, "-o", output], timeout=20)
             require(refused.returncode == result.returncode, f"scene {number}: run says {refused.returncode}")
@@ -74,8 +76,11 @@ def torture(program, counts, seed=6):
     valid_scene = program.call([program.path, "defaults"]).stdout
     plain = b"\n".join(line for line in valid_scene.encode().split(b"\n") if not line.startswith(b"#"))
     scenes = [mutate(plain, draw) for _ in range(counts["scenes"])]
-    with concurrent.futures.ThreadPoolExecutor(2) as pool:  # even and odd numbers use different folders
-        halves = [pool.submit(lambda part: [judge(program, n, scenes[n]) for n in range(part, len(scenes), 2)], part) for part in (0, 1)]
-        n_valid = sum(sum(half.result()) for half in halves)
+
+    def judge_half(part):  # even and odd numbers use different folders
+        return sum(judge(program, number, scenes[number]) for number in range(part, len(scenes), 2))
+
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        n_valid = sum(pool.map(judge_half, (0, 1)))
     require(n_valid < 0.6 * len(scenes), f"{n_valid} of {len(scenes)} mutations are valid: they are too tame")
     return len(scenes), f"{len(scenes) - n_valid} refused, {n_valid} valid after all"

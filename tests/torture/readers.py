@@ -1,5 +1,8 @@
 """Whoever reads a run while it writes finds whole frames only."""
 
+import random
+import time
+
 import h5py
 import numpy as np
 
@@ -20,6 +23,7 @@ def read_once(index):
 
 
 def torture(program, counts, seed=8):
+    draw = random.Random(seed)
     n_opened, seen, n_runs = 0, set(), 0
     while n_opened < counts["readings"]:
         folder = program.fresh("read")
@@ -33,10 +37,11 @@ def torture(program, counts, seed=8):
             last = n_frames
             seen.add((n_runs, n_frames))
             n_opened += 1
+            time.sleep(draw.uniform(0.0, 0.05))
         if process.poll() is None:
             process.terminate()
         _, messages = process.communicate(timeout=60)
         require(process.returncode in (DONE, 75), f"the run ended with {process.returncode}: {messages}")
         n_runs += 1
-    require(len(seen) >= min(20, n_opened // 4), f"the run was hardly caught writing: {len(seen)} different states")
+    require(len(seen) >= n_opened // 4, f"the run was hardly caught writing: {len(seen)} different states")
     return n_opened, f"{len(seen)} different states in {n_runs} runs"

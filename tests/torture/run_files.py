@@ -1,4 +1,4 @@
-"""Run folders as the torture reads them: with h5py, and with a decoder of checkpoints written from the description alone."""
+"""Run folders as the torture reads them: with h5py, and checkpoints with a decoder written from their description."""
 
 import pathlib
 import struct
@@ -60,14 +60,17 @@ def read_checkpoint(path):
 HISTORY = ("run.seconds", "program.", "trajectory.segments", "trajectory.xxh3")
 
 
+def as_bytes(value):
+    if isinstance(value, str):
+        return value.encode()
+    kind = "q" if value and isinstance(value[0], int) else "d"
+    return struct.pack(f"<{len(value)}{kind}", *value)
+
+
 def final_state(folder):
     """What two runs must share in every bit: frames, step records, and the memory from which they would go on."""
     values = read_checkpoint(checkpoints(folder)[-1])
-    memory = {
-        name: value if isinstance(value, str) else struct.pack(f"<{len(value)}{'dq'[isinstance(value[0], int)]}", *value)
-        for name, value in values.items()
-        if not name.startswith(HISTORY)
-    }
+    memory = {name: as_bytes(value) for name, value in values.items() if not name.startswith(HISTORY)}
     return {**read_arrays(folder), **memory}
 
 

@@ -117,4 +117,5 @@ def check_locks(program):
     require(program.resume(folder, "--max-walltime", "0.5").returncode in (DONE, STOPPED), "a dead one's lock is kept")
     (folder / "lock").write_text("host elsewhere.example\nprocess 1\nbegan 1@1\n")
     result = program.resume(folder)
-    require(result.returncode == CANNOT_CREATE and "elsewhere.example" in result.stderr, f"another host's: {result.stderr}")
+    refused = result.returncode == CANNOT_CREATE and "elsewhere.example" in result.stderr
+    require(refused, f"another host's lock: {result.stderr}")

@@ -1,4 +1,4 @@
-"""Everything a run must survive, and one table of what it did: torture.py SKEIN FOLDER [--short | --campaign] [MODULE...]
+"""Everything a run must survive, and one table: torture.py SKEIN FOLDER [--short | --campaign] [MODULE...]
 
 FOLDER is filled with run folders. The exit code is 0 if every promise was kept."""
 
@@ -24,7 +24,8 @@ PROMISES = {
     "readers": "read while it writes",
 }
 COUNTS = {
-    "short": dict(kills=6, restarts=3, stops=1, full_disks=2, write_errors=5, damages=8, scenes=60, faults=4, readings=20),
+    "short": dict(kills=6, restarts=3, stops=1, full_disks=2, write_errors=5, damages=8, scenes=60, faults=4,
+                  readings=20),
     "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, scenes=2000, faults=50,
                   readings=200),
     "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000, scenes=20000,
@@ -61,7 +62,8 @@ def main():
         started = time.monotonic()
         count, passed, remark = torture(name, program, counts)
         kept = kept and passed
-        print(f"{PROMISES[name]:26}{count:7}  {'yes' if passed else 'NO':8}{time.monotonic() - started:8.1f}  {remark}", flush=True)
+        seconds = time.monotonic() - started
+        print(f"{PROMISES[name]:26}{count:7}  {'yes' if passed else 'NO':8}{seconds:8.1f}  {remark}", flush=True)
     return 0 if kept else 1
 
 

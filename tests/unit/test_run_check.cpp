@@ -86,6 +86,12 @@ class WholeRun : public testing::Test {
     write_file_atomically(path, bytes);
   }
 
+  static void seal_again(const fs::path& path) {
+    std::string bytes = read_file(path);
+    bytes.resize(bytes.size() - 16);
+    write_file_atomically(path, bytes + compute_seal(std::string_view(bytes).substr(0, bytes.size() - 8)));
+  }
+
   ScratchFolder scratch_;
   RunFolder folder_;
 };
@@ -122,11 +128,29 @@ TEST_F(WholeRun, AChangedNumberIsFound) {
   int n_found = 0;
   for (std::size_t at = bytes.find(pattern); at != std::string::npos; at = bytes.find(pattern, at + 1)) {
     flip_bit(segment(1), at);
-    EXPECT_NE(problem().find("segments/000001.h5"), std::string::npos);
-    flip_bit(segment(1), at);
+    EXPECT_NE(problem().find("segments/000001.h5' was changed"), std::string::npos);
+    // Even by somebody who also mends the file's own checksum.
+    seal_again(segment(1));
+    EXPECT_NE(problem().find("000001.h5' was changed: its contents"), std::string::npos);
+    write_file_atomically(segment(1), bytes);
     ++n_found;
   }
   EXPECT_GE(n_found, 2);  // a frame's and a step's
+  EXPECT_EQ(problem(), "");
+}
+
+TEST_F(WholeRun, AnyChangedByteOfAnyFileIsFound) {
+  for (const fs::path& path : {segment(0), segment(2), folder_.index(), checkpoint(1)}) {
+    const std::string bytes = read_file(path);
+    for (std::size_t at = 3; at < bytes.size(); at += bytes.size() / 12) {
+      flip_bit(path, at);
+      EXPECT_NE(problem().find(path.filename().string()), std::string::npos) << path << ", byte " << at;
+      write_file_atomically(path, bytes);
+    }
+    fs::resize_file(path, bytes.size() / 2);
+    EXPECT_NE(problem().find(path.filename().string()), std::string::npos) << path;
+    write_file_atomically(path, bytes);
+  }
   EXPECT_EQ(problem(), "");
 }
 
