@@ -84,6 +84,18 @@ inline Pack<float> estimate_inverse_sqrt(const Pack<float> x) {
 #endif
 }
 
+/// x^(-1/2) to the last bits, x > 0: the series of (1 - e)^(-1/2) about the estimate y, where e = 1 - x y^2.
+inline Pack<double> inverse_sqrt(const Pack<double> x) {
+  const Pack<double> y = estimate_inverse_sqrt(x);
+  const Pack<double> e = 1.0 - x * y * y;
+  return y + y * e * (0.5 + e * (0.375 + e * 0.3125));
+}
+inline Pack<float> inverse_sqrt(const Pack<float> x) {
+  const Pack<float> y = estimate_inverse_sqrt(x);
+  const Pack<float> e = 1.0f - x * y * y;
+  return y + y * e * (0.5f + e * 0.375f);
+}
+
 /// x^(-3/2) to the last bits, x > 0: the series of (1 - e)^(-3/2) about the estimate y, where e = 1 - x y^2.
 inline Pack<double> inverse_sqrt_cubed(const Pack<double> x) {
   const Pack<double> y = estimate_inverse_sqrt(x);

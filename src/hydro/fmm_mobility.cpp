@@ -1,0 +1,286 @@
+#include <skein/hydro/fmm_mobility.hpp>
+
+#include <skein/core/error.hpp>
+
+#include "fmm_operators.hpp"
+#include "kernels/fmm_translations.hpp"
+#include "kernels/stokeslet_direct.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace skein {
+namespace {
+
+class Stopwatch {
+ public:
+  double lap() {
+    const double now = seconds();
+    return now - std::exchange(start_, now);
+  }
+
+ private:
+#ifdef SKEIN_FMM_CPU_TIME
+  static double seconds() {
+    timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+#else
+  static double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+#endif
+  double start_ = seconds();
+};
+
+struct HostNodes {
+  ConstVectorView<HostSpace> position, force, target;
+  ConstScalarView<HostSpace> blob;
+};
+
+HostNodes copy_to_host(const Sources& sources, const ConstVectors& target) {
+  HostNodes nodes;
+  nodes.position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.position);
+  nodes.force = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.force);
+  nodes.blob = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.blob);
+  const bool same = target.data() == sources.position.data() && target.extent(0) == sources.position.extent(0);
+  if (same)
+    nodes.target = nodes.position;
+  else
+    nodes.target = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), target);
+  return nodes;
+}
+
+void resize(HostVectors& array, const int n, const char* label) {
+  if (array.extent_int(0) != n) array = HostVectors(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), n);
+}
+
+double largest_blob(const ConstScalarView<HostSpace>& blob) {
+  double largest = 0.0;
+  for (int i = 0; i < blob.extent_int(0); ++i) largest = std::max(largest, blob(i));
+  return largest;
+}
+
+/// Operators kept between calls, for one order and precision.
+template <class Real>
+class OperatorStore {
+ public:
+  /// The operators of every level of the tree, complete for its lists.
+  std::vector<const OperatorSet<Real>*> require(const FarField far_field, const FmmPlan& plan, const double blob,
+                                                const Octree& tree) {
+    if (order_ != plan.order || cutoff_ != plan.singular_cutoff) kept_.clear();
+    order_ = plan.order;
+    cutoff_ = plan.singular_cutoff;
+    std::vector<FmmOperators<Real>*> operators;
+    for (int level = 0; level < math::larger(tree.n_levels(), first_far_level + 1); ++level) {
+      const double ratio = far_field == FarField::regularized ? blob / tree.half_width(level) : 0.0;
+      auto found = kept_.find(ratio);
+      if (found == kept_.end()) {
+        if (level < first_far_level) {
+          operators.push_back(nullptr);
+          continue;
+        }
+        found = kept_.try_emplace(ratio, far_field, plan.order, plan.singular_cutoff, ratio).first;
+      }
+      operators.push_back(&found->second);
+    }
+    for (std::size_t level = first_far_level; level < operators.size(); ++level) {
+      operators[level]->require_transfers(tree.transfers_met());
+      if (level + 1 < operators.size()) operators[level]->require_passes(*operators[level + 1]);
+    }
+    std::vector<const OperatorSet<Real>*> sets;
+    for (const auto* level : operators) sets.push_back(level == nullptr ? nullptr : &level->set());
+    return sets;
+  }
+
+  double bytes() const {
+    double sum = 0.0;
+    for (const auto& [ratio, operators] : kept_) sum += operators.bytes();
+    return sum;
+  }
+
+ private:
+  int order_ = 0;
+  double cutoff_ = 0.0;
+  std::map<double, FmmOperators<Real>> kept_;  ///< by blob / half-width; one entry where that does not matter
+};
+
+}  // namespace
+
+class FmmMobility::Evaluator {
+ public:
+  /// velocity += the sum after a plan.
+  void add(const FmmOptions& options, const FmmPlan& plan, const double viscosity, const HostNodes& nodes,
+           const HostVectors& velocity);
+
+  FmmStatistics statistics;
+  int raised_order = 0;  ///< 0: as planned
+
+ private:
+  void sort_nodes(const HostNodes& nodes, double scale);
+  template <class Real>
+  void add_in(const FmmOptions& options, const FmmPlan& plan, double blob, OperatorStore<Real>& store,
+              Coefficients<Real>& coefficients, const HostVectors& velocity);
+  template <class Real, class Field>
+  void pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+            Coefficients<Real>& coefficients, const HostVectors& velocity);
+  void count(const FmmPlan& plan, double operator_bytes, double coefficient_bytes);
+
+  Octree tree_;
+  SortedNodes sorted_;
+  OperatorStore<double> operators_;
+  OperatorStore<float> single_operators_;
+  Coefficients<double> coefficients_;
+  Coefficients<float> single_coefficients_;
+  std::vector<TargetTask> tasks_;
+};
+
+void FmmMobility::Evaluator::sort_nodes(const HostNodes& nodes, const double scale) {
+  const int n_sources = nodes.position.extent_int(0), n_targets = nodes.target.extent_int(0);
+  const bool same = nodes.target.data() == nodes.position.data() && n_sources == n_targets;
+  resize(sorted_.position, n_sources, "sorted_position");
+  resize(sorted_.force, n_sources, "sorted_force");
+  if (sorted_.blob.extent_int(0) != n_sources) sorted_.blob = HostScalars("sorted_blob", n_sources);
+  if (same)
+    sorted_.target = sorted_.position;
+  else if (sorted_.target.data() == sorted_.position.data() || sorted_.target.extent_int(0) != n_targets)
+    sorted_.target = HostVectors("sorted_target", n_targets);
+  const auto sorted = sorted_;
+  const auto source_order = tree_.source_order(), target_order = tree_.target_order();
+  Kokkos::parallel_for("skein::sort_sources", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sources),
+                       [=](const int i) {
+                         const int from = source_order(i);
+                         store(sorted.position, i, load(nodes.position, from));
+                         store(sorted.force, i, scale * load(nodes.force, from));
+                         sorted.blob(i) = nodes.blob(from);
+                       });
+  if (!same)
+    Kokkos::parallel_for("skein::sort_targets", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_targets),
+                         [=](const int i) { store(sorted.target, i, load(nodes.target, target_order(i))); });
+}
+
+template <class Real, class Field>
+void FmmMobility::Evaluator::pass(const FmmPlan& plan, const Field& field,
+                                  const std::vector<const OperatorSet<Real>*>& levels,
+                                  Coefficients<Real>& coefficients, const HostVectors& velocity) {
+  Stopwatch watch;
+  coefficients.stride = 0;
+  for (const auto* level : levels)
+    if (level != nullptr) coefficients.stride = math::larger(coefficients.stride, level->rank_padded);
+  coefficients.box_size = Field::n_columns * coefficients.stride;
+  const std::size_t needed = tree_.boxes().size() * static_cast<std::size_t>(coefficients.box_size);
+  if (coefficients.source.extent(0) < needed) {
+    coefficients.source = {};  // before the new ones are allocated
+    coefficients.target = {};
+    coefficients.source = Kokkos::View<Real*, HostSpace>(
+        Kokkos::view_alloc(std::string("source_coefficients"), Kokkos::WithoutInitializing), needed + needed / 8);
+    coefficients.target = Kokkos::View<Real*, HostSpace>(
+        Kokkos::view_alloc(std::string("target_coefficients"), Kokkos::WithoutInitializing), needed + needed / 8);
+  }
+  compute_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients);
+  statistics.far_seconds = watch.lap();
+  if constexpr (std::is_same_v<Real, float>) {
+    if (plan.near_in_single)
+      add_leaf_velocities<float, Real, Field>(tree_, sorted_, field, levels, coefficients, tasks_, velocity);
+    else
+      add_leaf_velocities<double, Real, Field>(tree_, sorted_, field, levels, coefficients, tasks_, velocity);
+  } else {
+    add_leaf_velocities<double, Real, Field>(tree_, sorted_, field, levels, coefficients, tasks_, velocity);
+  }
+  statistics.leaf_seconds = watch.lap();
+}
+
+template <class Real>
+void FmmMobility::Evaluator::add_in(const FmmOptions& options, const FmmPlan& plan, const double blob,
+                                    OperatorStore<Real>& store, Coefficients<Real>& coefficients,
+                                    const HostVectors& velocity) {
+  Stopwatch watch;
+  const auto levels = store.require(options.far_field, plan, blob, tree_);
+  statistics.operators_seconds = watch.lap();
+  if (options.far_field == FarField::harmonic)
+    pass<Real>(plan, HarmonicField{}, levels, coefficients, velocity);
+  else if (options.far_field == FarField::stokeslet)
+    pass<Real>(plan, StokesletField{options.stokes_part_only}, levels, coefficients, velocity);
+  else
+    pass<Real>(plan, RegularizedField{blob * blob}, levels, coefficients, velocity);
+  count(plan, store.bytes(), 2.0 * sizeof(Real) * static_cast<double>(coefficients.source.size()));
+}
+
+void FmmMobility::Evaluator::count(const FmmPlan& plan, const double operator_bytes, const double coefficient_bytes) {
+  statistics.plan = plan;
+  statistics.n_boxes = static_cast<int>(tree_.boxes().size());
+  statistics.n_levels = tree_.n_levels();
+  statistics.n_leaves = static_cast<int>(tree_.target_leaves().size());
+  statistics.smallest_half_width = tree_.half_width(tree_.n_levels() - 1);
+  statistics.far_pairs = static_cast<double>(tree_.far_pairs().entries.size());
+  statistics.near_pairs = 0.0;
+  for (int leaf = 0; leaf < statistics.n_leaves; ++leaf) {
+    double n_sources = 0.0;
+    for (const Run* run = tree_.near_sources().begin(leaf); run != tree_.near_sources().end(leaf); ++run)
+      n_sources += run->count;
+    const auto box = static_cast<std::size_t>(tree_.target_leaves()[static_cast<std::size_t>(leaf)]);
+    statistics.near_pairs += n_sources * tree_.boxes()[box].targets.count;
+  }
+  const double node_bytes = 8.0 * static_cast<double>(sorted_.position.size() + sorted_.force.size() +
+                                                      sorted_.blob.size()) +
+                            (sorted_.target.data() == sorted_.position.data() ? 0.0 : 8.0 * static_cast<double>(sorted_.target.size()));
+  statistics.memory_bytes = operator_bytes + coefficient_bytes + node_bytes + tree_.bytes();
+}
+
+void FmmMobility::Evaluator::add(const FmmOptions& options, const FmmPlan& plan, const double viscosity,
+                                 const HostNodes& nodes, const HostVectors& velocity) {
+  Stopwatch watch;
+  OctreeRules rules;
+  rules.leaf_size = plan.leaf_size;
+  rules.min_half_width = plan.min_half_width;
+  const int edge = plan.order - 1;
+  rules.min_sources_for_expansion = 6 * edge * edge + 2;
+  tree_.build(nodes.position, nodes.target, rules);
+  tasks_ = make_target_tasks(tree_);
+  statistics.tree_seconds = watch.lap();
+  sort_nodes(nodes, regularized_stokeslet::scale(viscosity));
+  statistics.sort_seconds = watch.lap();
+  const double blob = largest_blob(nodes.blob);
+  if (plan.far_in_single)
+    add_in<float>(options, plan, blob, single_operators_, single_coefficients_, velocity);
+  else
+    add_in<double>(options, plan, blob, operators_, coefficients_, velocity);
+}
+
+FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
+    : viscosity_(viscosity), options_(options), evaluator_(std::make_unique<Evaluator>()) {
+  SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
+}
+
+FmmMobility::~FmmMobility() = default;
+
+const FmmStatistics& FmmMobility::statistics() const { return evaluator_->statistics; }
+
+void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
+  SKEIN_REQUIRE(sources.position.extent(0) == sources.force.extent(0) &&
+                    sources.position.extent(0) == sources.blob.extent(0),
+                "positions, forces and blobs of the sources differ in number");
+  SKEIN_REQUIRE(target.extent(0) == velocity.extent(0), "targets and velocities differ in number");
+  if (sources.position.extent(0) == 0 || target.extent(0) == 0) return;
+  pairs_ += static_cast<double>(sources.position.extent(0)) * static_cast<double>(target.extent(0));
+  const HostNodes nodes = copy_to_host(sources, target);
+  const FmmPlan plan = choose_fmm_plan(options_, largest_blob(nodes.blob));
+  if constexpr (on_host<ExecSpace>) {
+    evaluator_->add(options_, plan, viscosity_, nodes, velocity);
+  } else {
+    const auto host_velocity = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), velocity);
+    evaluator_->add(options_, plan, viscosity_, nodes, host_velocity);
+    Kokkos::deep_copy(velocity, host_velocity);
+  }
+  ++n_evaluations_;
+}
+
+double FmmMobility::measure_error(const Sources&, const ConstVectors&, int) { return -1.0; }
+
+std::string FmmMobility::describe() const { return "fast multipole method"; }
+
+}  // namespace skein
