@@ -55,10 +55,16 @@ KeyOf make_key_of(const double (&corner)[3], const double side, const int depth)
   return {{corner[0], corner[1], corner[2]}, n_cells / side, n_cells};
 }
 
-/// Side of the cells that would hold leaf_size nodes each on average, from a sample: the mean number of nodes per
-/// occupied cell as a function of the cell's side, interpolated; where the sample is too thin, extrapolated by the
-/// dimension that the coarser cells show (1 for a line, 3 for a cloud).
-double aimed_cell_side(const Nodes& nodes, const double (&corner)[3], const double side, const int leaf_size) {
+struct CellChoice {
+  double side;
+  int nodes_per_cell;
+};
+
+/// Side of the cells that would hold the aimed number of nodes each on average, from a sample: the mean number of nodes
+/// per occupied cell as a function of the cell's side, interpolated; where the sample is too thin, extrapolated by the
+/// dimension that the coarser cells show (1 for a line, 3 for a cloud). Along a line leaf_size nodes are aimed at; in a
+/// cloud, where a box has 189 far pairs instead of three, twice as many.
+CellChoice choose_cell(const Nodes& nodes, const double (&corner)[3], const double side, const int leaf_size) {
   const int n = nodes.extent_int(0);
   const int stride = math::larger(1, n / n_sampled);
   const int n_keys = math::ceil_div(n, stride);
@@ -77,15 +83,16 @@ double aimed_cell_side(const Nodes& nodes, const double (&corner)[3], const doub
   for (int level = 1; level <= max_key_depth; ++level) {
     const double finer = cells + n_cells[level];
     const bool is_thin = n_keys < 4.0 * finer;
-    if (!is_thin) slope = std::log2(finer / cells);
-    const double needed = static_cast<double>(n) / leaf_size / cells;  // more cells than there are here, a factor
+    if (!is_thin) slope = std::clamp(std::log2(finer / cells), 0.5, 3.0);
+    const double aimed = leaf_size * std::exp2(0.5 * std::max(0.0, slope - 1.0));
+    const double needed = static_cast<double>(n) / aimed / cells;  // more cells than there are here, a factor
     if (is_thin || finer / cells >= needed) {
-      if (needed <= 1.0) return side / static_cast<double>(1 << (level - 1));
-      return side / static_cast<double>(1 << (level - 1)) * std::exp2(-std::log2(needed) / std::max(slope, 0.5));
+      const double coarse = side / static_cast<double>(1 << (level - 1));
+      return {needed <= 1.0 ? coarse : coarse * std::exp2(-std::log2(needed) / slope), static_cast<int>(aimed)};
     }
     cells = finer;
   }
-  return side / static_cast<double>(1 << max_key_depth);
+  return {side / static_cast<double>(1 << max_key_depth), leaf_size};
 }
 
 /// Sides change in steps of a quarter octave, so that operators that depend on them can be kept while nodes move.
@@ -142,8 +149,12 @@ void Octree::choose_cube(const Nodes& source, const Nodes& target, const OctreeR
   for (int c = 0; c < 3; ++c) corner_[c] = bounds.low[c];
   const Nodes& more = source.extent(0) >= target.extent(0) ? source : target;
   double cell = extent;
-  if (more.extent_int(0) > rules.leaf_size)
-    cell = std::min(extent, std::max(smallest, quantized(aimed_cell_side(more, corner_, extent, rules.leaf_size))));
+  nodes_per_cell_ = rules.leaf_size;
+  if (more.extent_int(0) > rules.leaf_size) {
+    const CellChoice choice = choose_cell(more, corner_, extent, rules.leaf_size);
+    cell = std::min(extent, std::max(smallest, quantized(choice.side)));
+    nodes_per_cell_ = choice.nodes_per_cell;
+  }
 
   side_ = std::max(cell, 1e-300);
   aimed_depth_ = 0;
@@ -205,8 +216,7 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
     }
     sort(target, target_order_, target_key_);
   }
-  // An aimed leaf may hold a few times the mean before it is worth splitting; boxes above hold less than a leaf's worth.
-  split_boxes(rules.leaf_size);
+  split_boxes(nodes_per_cell_);
   build_lists(rules);
 }
 
@@ -229,6 +239,7 @@ void Octree::split_boxes(const int leaf_size) {
   };
   for (int level = 0; level < max_depth_; ++level) {
     const int shift = 3 * (max_depth_ - level - 1);
+    // Above the aimed depth a box is split unless it holds but a leaf's worth; below, where it holds several.
     const int split_above = level + 1 <= aimed_depth_ ? (leaf_size * 5) / 4 : 3 * leaf_size;
     const int last_parent = level_first_.back();
     for (int parent = level_first_[static_cast<std::size_t>(level)]; parent < last_parent; ++parent) {
@@ -271,6 +282,7 @@ void Octree::build_lists(const OctreeRules& rules) {
   fine_.clear();
   target_leaves_.clear();
   transfers_met_ = 0;
+  largest_near_ = 0.0;
   std::vector<int> stack;
   for (int b = 0; b < static_cast<int>(boxes_.size()); ++b) {
     const Box& box = boxes_[static_cast<std::size_t>(b)];
@@ -347,6 +359,7 @@ void Octree::add_leaf_lists(const int leaf, const OctreeRules& rules, std::vecto
   near_.end_list();
   fine_.end_list();
   target_leaves_.push_back(leaf);
+  largest_near_ = std::max(largest_near_, half_width(box.level));
 }
 
 }  // namespace skein

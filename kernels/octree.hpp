@@ -53,9 +53,9 @@ struct ListOfLists {
 
 /// What shapes a tree.
 struct OctreeRules {
-  int leaf_size = 64;             ///< nodes per leaf to aim at, >= 1
+  int leaf_size = 64;             ///< nodes per leaf to aim at, >= 1; in clouds up to twice as many
   double min_half_width = 0.0;    ///< no leaf is smaller, length
-  int min_sources_for_expansion;  ///< fewer sources (or targets) than this are summed directly across W and X lists
+  int min_sources_for_expansion = 0;  ///< fewer sources (or targets) than this are summed directly across W and X lists
 };
 
 /// An adaptive octree over sources and targets, with the interaction lists of the fast multipole method
@@ -77,6 +77,8 @@ class Octree {
   Vec3 center(const Box& box) const;
   double half_width(const int level) const { return 0.5 * side_ / static_cast<double>(1 << level); }
 
+  /// Half-width of the largest leaf with targets, length.
+  double largest_leaf() const { return largest_near_; }
   double bytes() const;
 
   /// Place in the tree's order -> index in the caller's arrays.
@@ -94,13 +96,15 @@ class Octree {
  private:
   void choose_cube(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target,
                    const OctreeRules& rules);
-  void split_boxes(int split_above);
+  void split_boxes(int leaf_size);
   void build_lists(const OctreeRules& rules);
   void add_leaf_lists(int leaf, const OctreeRules& rules, std::vector<int>& stack);
 
   double corner_[3] = {};
   double side_ = 1.0;
   int max_depth_ = 0;
+  int nodes_per_cell_ = 0;
+  double largest_near_ = 0.0;
   int aimed_depth_ = 0;  ///< where leaves hold about leaf_size nodes; smaller boxes are split only when they hold more
   std::vector<Box> boxes_;
   std::vector<int> level_first_;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <skein/hydro/direct_mobility.hpp>
 #include <skein/hydro/method_choice.hpp>
 #include <skein/hydro/mobility.hpp>
 
+#include <cstdint>
 #include <memory>
+#include <string>
 
 namespace skein {
 
@@ -14,13 +17,14 @@ struct FmmStatistics {
   int n_levels = 0;
   int n_leaves = 0;                  ///< with targets
   double smallest_half_width = 0.0;  ///< of a leaf, length
-  double near_pairs = 0.0;
-  double far_pairs = 0.0;     ///< pairs of boxes in the V lists
+  FmmWork work;
+  bool used_direct_sum = false;  ///< the lists showed that it costs less, or the tolerance is out of reach
   double memory_bytes = 0.0;  ///< of the tree, the nodes' copies, coefficients and operators
   /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves.
   double operators_seconds = 0.0, tree_seconds = 0.0, sort_seconds = 0.0, far_seconds = 0.0, leaf_seconds = 0.0;
   double checked_error = -1.0;  ///< of the last check against direct sums, 2-norm, relative; -1: none yet
   int n_checks = 0, n_misses = 0;
+  std::string last_miss;  ///< what the last miss was, for the user
 };
 
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
@@ -49,8 +53,13 @@ class FmmMobility final : public Mobility {
  private:
   class Evaluator;
 
+  /// False where the direct sum did it.
+  bool add_unchecked(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
+  double compare(const Sources& sources, const ConstVectors& target, const ConstVectors& velocity, int n_sample);
+
   double viscosity_;
   FmmOptions options_;
+  DirectMobility direct_;
   double pairs_ = 0.0;
   std::int64_t n_evaluations_ = 0;
   std::unique_ptr<Evaluator> evaluator_;
