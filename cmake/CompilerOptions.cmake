@@ -3,6 +3,10 @@
 add_library(skein_compiler_options INTERFACE)
 target_compile_options(skein_compiler_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-psabi>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # Both cry wolf over std::string in g++ 12.
+  target_compile_options(skein_compiler_options INTERFACE -Wno-restrict -Wno-maybe-uninitialized)
+endif()
 if(SKEIN_NATIVE)
   target_compile_options(skein_compiler_options INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang>:-march=native>)
 endif()

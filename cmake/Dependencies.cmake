@@ -80,8 +80,10 @@ endfunction()
 
 # Not through skein_find: the variables of Kokkos are needed here, and its version file rejects ranges.
 find_package(Kokkos CONFIG QUIET)
-skein_require("${Kokkos_FOUND}" "Kokkos (through SKEIN_KOKKOS_PREFIX or CMAKE_PREFIX_PATH)"
-              "libkokkos-dev, which Debian 12 lacks")
+if(NOT Kokkos_FOUND)
+  message(FATAL_ERROR "Kokkos is not found: run tools/setup.sh and set SKEIN_KOKKOS_PREFIX as it prints, or install "
+                      "libkokkos-dev where Debian has it.")
+endif()
 skein_check_kokkos()
 
 skein_find(libeigen3-dev Eigen3 CONFIG)

@@ -7,8 +7,19 @@
 namespace skein {
 
 namespace math {
-inline simd::Pack<double> inverse_sqrt(const simd::Pack<double> x) { return simd::inverse_sqrt(x); }
-inline simd::Pack<float> inverse_sqrt(const simd::Pack<float> x) { return simd::inverse_sqrt(x); }
+
+/// x^(-1/2) to a few units of the last place, x > 0: the series of (1 - e)^(-1/2) about the estimate y, e = 1 - x y^2.
+inline simd::Pack<double> inverse_sqrt(const simd::Pack<double> x) {
+  const simd::Pack<double> y = simd::estimate_inverse_sqrt(x);
+  const simd::Pack<double> e = 1.0 - x * y * y;
+  return y + y * e * (0.5 + e * (0.375 + e * 0.3125));
+}
+inline simd::Pack<float> inverse_sqrt(const simd::Pack<float> x) {
+  const simd::Pack<float> y = simd::estimate_inverse_sqrt(x);
+  const simd::Pack<float> e = 1.0f - x * y * y;
+  return y + y * e * (0.5f + e * 0.375f);
+}
+
 }  // namespace math
 
 /// One source as the far field sees it, in units of a box's half-width and from its centre.

@@ -1,45 +1,45 @@
 #include "kernels/stokeslet_direct.hpp"
 
 #include <skein/core/error.hpp>
+#include <utility>
 
 #include "kernels/stokeslet_block.hpp"
 
-#include <utility>
-
 namespace skein {
 namespace {
+
+constexpr int device_team_size = 128;
 
 template <class Real>
 void add_on_host(const HostSpace& space, const HostSources& sources, const ConstVectorView<HostSpace>& target,
                  const VectorView<HostSpace>& velocity) {
   const int n_sources = sources.position.extent_int(0);
   const int n_targets = target.extent_int(0);
-  Kokkos::parallel_for(
-      "skein::add_stokeslet_velocity",
-      Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(space, 0,
-                                                                        math::ceil_div(n_targets, block_targets)),
-      [=](const int block) {
-        const int first = block * block_targets;
-        bool given = false;
-        const auto all_sources = [&](Run& run) {
-          run = {0, n_sources};
-          return !std::exchange(given, true);
-        };
-        add_runs_to_targets<Real>(sources, all_sources, target, {first, math::smaller(block_targets, n_targets - first)},
-                                  velocity);
-      });
+  Kokkos::parallel_for("skein::add_stokeslet_velocity",
+                       Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(
+                           space, 0, math::ceil_div(n_targets, block_targets)),
+                       [=](const int block) {
+                         const int first = block * block_targets;
+                         bool given = false;
+                         const auto all_sources = [&](Run& run) {
+                           run = {0, n_sources};
+                           return !std::exchange(given, true);
+                         };
+                         add_runs_to_targets<Real>(sources, all_sources, target,
+                                                   {first, math::smaller(block_targets, n_targets - first)}, velocity);
+                       });
 }
 
-/// One thread per target; the team shares a tile of sources. Correct for any team size.
+/// One thread per target; the team shares a tile of sources.
 template <class Real, class Space>
-void add_on_device(const Space& space, const ConstVectorView<Space>& source_position,
-                   const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
-                   const ConstVectorView<Space>& target, const VectorView<Space>& velocity, const double scale) {
+void add_by_teams(const Space& space, const ConstVectorView<Space>& source_position,
+                  const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
+                  const ConstVectorView<Space>& target, const VectorView<Space>& velocity, const double scale,
+                  const int team_size) {
   using Policy = Kokkos::TeamPolicy<Space>;
   using Team = typename Policy::member_type;
   using ScratchVectors = Kokkos::View<double* [3], typename Space::scratch_memory_space, Kokkos::MemoryUnmanaged>;
   using ScratchForces = Kokkos::View<Real* [4], typename Space::scratch_memory_space, Kokkos::MemoryUnmanaged>;
-  constexpr int team_size = on_host<Space> ? 1 : 128;
 
   const int n_sources = source_position.extent_int(0);
   const int n_targets = target.extent_int(0);
@@ -48,7 +48,7 @@ void add_on_device(const Space& space, const ConstVectorView<Space>& source_posi
                                                               ScratchForces::shmem_size(tile_sources))));
 
   Kokkos::parallel_for(
-      "skein::add_stokeslet_velocity", policy, KOKKOS_LAMBDA(const Team& team) {
+      "skein::add_stokeslet_velocity_by_teams", policy, KOKKOS_LAMBDA(const Team& team) {
         const ScratchVectors position(team.team_scratch(0), tile_sources);
         const ScratchForces force(team.team_scratch(0), tile_sources);  // and the square of the blob
         const int t = team.league_rank() * team.team_size() + team.team_rank();
@@ -85,14 +85,13 @@ void add_on_device(const Space& space, const ConstVectorView<Space>& source_posi
       });
 }
 
-template <class Real, class Space>
-void add_in(const Space& space, const ConstVectorView<Space>& source_position,
-            const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
-            const ConstVectorView<Space>& target, const VectorView<Space>& velocity, const double scale) {
-  if constexpr (on_host<Space>)
-    add_on_host<Real>(space, {source_position, source_force, blob, scale}, target, velocity);
-  else
-    add_on_device<Real, Space>(space, source_position, source_force, blob, target, velocity, scale);
+template <class Space>
+void check_extents(const ConstVectorView<Space>& source_position, const ConstVectorView<Space>& source_force,
+                   const ConstScalarView<Space>& blob, const ConstVectorView<Space>& target,
+                   const VectorView<Space>& velocity) {
+  SKEIN_REQUIRE(source_position.extent(0) == source_force.extent(0) && source_position.extent(0) == blob.extent(0),
+                "positions, forces and blobs of the sources differ in number");
+  SKEIN_REQUIRE(target.extent(0) == velocity.extent(0), "targets and velocities differ in number");
 }
 
 }  // namespace
@@ -102,21 +101,42 @@ void add_stokeslet_velocity(const Space& space, const ConstVectorView<Space>& so
                             const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
                             const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
                             const double viscosity, const PairPrecision precision) {
-  SKEIN_REQUIRE(source_position.extent(0) == source_force.extent(0) && source_position.extent(0) == blob.extent(0),
-                "positions, forces and blobs of the sources differ in number");
-  SKEIN_REQUIRE(target.extent(0) == velocity.extent(0), "targets and velocities differ in number");
+  check_extents<Space>(source_position, source_force, blob, target, velocity);
+  if (source_position.extent(0) == 0 || target.extent(0) == 0) return;
+  if constexpr (on_host<Space>) {
+    const HostSources sources{source_position, source_force, blob, regularized_stokeslet::scale(viscosity)};
+    if (precision == PairPrecision::in_double)
+      add_on_host<double>(space, sources, target, velocity);
+    else
+      add_on_host<float>(space, sources, target, velocity);
+  } else {
+    add_stokeslet_velocity_by_teams<Space>(space, source_position, source_force, blob, target, velocity, viscosity,
+                                           precision, device_team_size);
+  }
+}
+
+template <class Space>
+void add_stokeslet_velocity_by_teams(const Space& space, const ConstVectorView<Space>& source_position,
+                                     const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
+                                     const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
+                                     const double viscosity, const PairPrecision precision, const int team_size) {
+  check_extents<Space>(source_position, source_force, blob, target, velocity);
+  SKEIN_REQUIRE(team_size > 0, "a team needs a thread");
   if (source_position.extent(0) == 0 || target.extent(0) == 0) return;
   const double scale = regularized_stokeslet::scale(viscosity);
   if (precision == PairPrecision::in_double)
-    add_in<double, Space>(space, source_position, source_force, blob, target, velocity, scale);
+    add_by_teams<double, Space>(space, source_position, source_force, blob, target, velocity, scale, team_size);
   else
-    add_in<float, Space>(space, source_position, source_force, blob, target, velocity, scale);
+    add_by_teams<float, Space>(space, source_position, source_force, blob, target, velocity, scale, team_size);
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                      \
-  template void add_stokeslet_velocity<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&,         \
-                                          const ConstScalarView<S>&, const ConstVectorView<S>&,                   \
-                                          const VectorView<S>&, double, PairPrecision);
+#define SKEIN_INSTANTIATE(S)                                                                                          \
+  template void add_stokeslet_velocity<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&,             \
+                                          const ConstScalarView<S>&, const ConstVectorView<S>&, const VectorView<S>&, \
+                                          double, PairPrecision);                                                     \
+  template void add_stokeslet_velocity_by_teams<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&,    \
+                                                   const ConstScalarView<S>&, const ConstVectorView<S>&,              \
+                                                   const VectorView<S>&, double, PairPrecision, int);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

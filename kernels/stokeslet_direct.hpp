@@ -20,7 +20,16 @@ void add_stokeslet_velocity(const Space& space, const ConstVectorView<Space>& so
                             const ConstVectorView<Space>& target, const VectorView<Space>& velocity, double viscosity,
                             PairPrecision precision);
 
-/// The same where every source is a target and all blobs are equal, on the host: S_eps is symmetric then, and each pair
+/// The same as GPUs compute it: a thread per target, and teams that share tiles of sources. Hosts have it so that its
+/// loop is tested everywhere; they use it for nothing else.
+/// @param team_size  > 0, and no more than the space allows; the result does not depend on it
+template <class Space>
+void add_stokeslet_velocity_by_teams(const Space& space, const ConstVectorView<Space>& source_position,
+                                     const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
+                                     const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
+                                     double viscosity, PairPrecision precision, int team_size);
+
+/// The general sum where every source is a target and all blobs are equal, on the host: S_eps is symmetric then, and each pair
 /// is weighed once for both of its nodes. perf/bench_direct compares it with the general sum.
 /// @param blob  [n_nodes], all equal (not checked); at least min_symmetric_nodes nodes.
 void add_symmetric_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,

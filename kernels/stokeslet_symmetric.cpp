@@ -4,12 +4,16 @@
 
 #include "kernels/stokeslet_block.hpp"
 
+#include <atomic>
 #include <cstdint>
+#include <thread>
 #include <utility>
+#include <vector>
 
-// Nodes are cut into n_tiles tiles. A tournament pairs every tile with every other: in each of its n_tiles - 1 rounds no
-// tile plays twice, so that the pairs of a round run in parallel without buffers or atomics, and every node receives its
-// contributions in the order of the rounds whatever the number of threads.
+// Nodes are cut into n_tiles tiles. In round 0 each tile plays alone, in rounds 1 .. n_tiles - 1 a tournament pairs every
+// tile with every other, each tile once a round. Threads claim matches in order; a match waits until its tiles have
+// finished the rounds before. So no buffers, no atomics on velocities, no barrier between rounds, and every node
+// receives its contributions in the order of the rounds whatever the number of threads.
 
 namespace skein {
 namespace {
@@ -29,12 +33,28 @@ Run tile_run(const int tile, const int n_tiles, const int n_nodes) {
   return {first, last - first};
 }
 
-/// A round of the tournament after the circle method: player n_tiles - 1 stays, the others rotate.
+/// The tiles of a match by the circle method: the last tile stays, the others rotate.
 void paired_tiles(const int round, const int match, const int n_tiles, int& one, int& other) {
   const int n_rotating = n_tiles - 1;
   one = match == 0 ? n_rotating : (round + match) % n_rotating;
-  other = match == 0 ? round : (round - match + n_rotating) % n_rotating;
+  other = match == 0 ? round % n_rotating : (round - match + n_rotating) % n_rotating;
 }
+
+/// Which rounds each tile has finished, for all threads to see.
+class Rounds {
+ public:
+  explicit Rounds(const int n_tiles) : finished_(static_cast<std::size_t>(n_tiles)) {}
+
+  void wait_for(const int tile, const int round) const {
+    int spins = 0;
+    while (finished_[tile].load(std::memory_order_acquire) < round)
+      if (++spins > 1000) std::this_thread::yield();
+  }
+  void finish(const int tile, const int round) { finished_[tile].store(round + 1, std::memory_order_release); }
+
+ private:
+  std::vector<std::atomic<int>> finished_;
+};
 
 /// Both directions between two sides: u += S f, v += S g with the weights computed once.
 template <bool with_low, class Real>
@@ -130,21 +150,35 @@ void add_within(const HostSources& nodes, const Run run, const VectorView<HostSp
 
 template <class Real>
 void add_symmetric(const HostSpace& space, const HostSources& nodes, const VectorView<HostSpace>& velocity) {
-  using Policy = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>;
   const int n_nodes = nodes.position.extent_int(0);
   const int n_tiles = math::smaller(max_tiles, n_nodes / nodes_per_tile / 2 * 2);
+  const int n_matches = n_tiles / 2;
+  const int n_tasks = n_tiles + (n_tiles - 1) * n_matches;
+  Rounds rounds(n_tiles);
+  std::atomic<int> next_task{0};
+  Rounds* const shared_rounds = &rounds;
+  std::atomic<int>* const shared_next = &next_task;
 
-  Kokkos::parallel_for("skein::add_stokeslet_velocity_within_tiles", Policy(space, 0, n_tiles), [=](const int tile) {
-    add_within<Real>(nodes, tile_run(tile, n_tiles, n_nodes), velocity);
-  });
-  for (int round = 0; round < n_tiles - 1; ++round)
-    Kokkos::parallel_for("skein::add_stokeslet_velocity_between_tiles", Policy(space, 0, n_tiles / 2),
-                         [=](const int match) {
-                           int one, other;
-                           paired_tiles(round, match, n_tiles, one, other);
-                           add_between<Real>(nodes, tile_run(one, n_tiles, n_nodes),
-                                             tile_run(other, n_tiles, n_nodes), velocity);
-                         });
+  const auto play = [=](const int task) {
+    if (task < n_tiles) {
+      add_within<Real>(nodes, tile_run(task, n_tiles, n_nodes), velocity);
+      shared_rounds->finish(task, 0);
+      return;
+    }
+    const int round = 1 + (task - n_tiles) / n_matches;
+    int one, other;
+    paired_tiles(round, (task - n_tiles) % n_matches, n_tiles, one, other);
+    shared_rounds->wait_for(one, round);
+    shared_rounds->wait_for(other, round);
+    add_between<Real>(nodes, tile_run(one, n_tiles, n_nodes), tile_run(other, n_tiles, n_nodes), velocity);
+    shared_rounds->finish(one, round);
+    shared_rounds->finish(other, round);
+  };
+  Kokkos::parallel_for("skein::add_symmetric_stokeslet_velocity",
+                       Kokkos::RangePolicy<HostSpace>(space, 0, space.concurrency()), [=](int) {
+                         for (int task = shared_next->fetch_add(1); task < n_tasks; task = shared_next->fetch_add(1))
+                           play(task);
+                       });
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ struct TimeConfig {
   double end = 12.0;            ///< time
   double step = 0.0;            ///< time; 0 lets the error control choose (rkc2); euler needs one
   double tolerance = 1e-4;      ///< rkc2: error per unit time, as a fraction of the longest fiber's length
-  double max_step = 0.5;        ///< time
+  double max_step = 0.1;        ///< time
 };
 
 struct OutputConfig {

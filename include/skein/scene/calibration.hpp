@@ -1,7 +1,6 @@
 #pragma once
 
 #include <skein/scene/spring_network.hpp>
-
 #include <vector>
 
 namespace skein {
@@ -29,10 +28,10 @@ BeamStiffness measure_beam_stiffness(const Fiber& fiber);
 /// Ratio of viscous to elastic forces, 8 pi viscosity rate L^4 / (c EI). Two definitions of c are in use; they differ
 /// by ln 4 + 2 in c, so a value means nothing without the name of its c.
 struct ElastoViscousNumbers {
-  double slenderness = 0.0;         ///< rho = R / L
-  double log_4e_over_rho2 = 0.0;    ///< c = ln(4 e / rho^2), LaGrone, Cortez, Yan, Fauci 2019
+  double slenderness = 0.0;       ///< rho = R / L
+  double log_4e_over_rho2 = 0.0;  ///< c = ln(4 e / rho^2), LaGrone, Cortez, Yan, Fauci 2019
   double with_log_4e_over_rho2 = 0.0;
-  double minus_log_rho2_e = 0.0;    ///< c = -ln(rho^2 e), slender-body theory; positive while rho < 0.606
+  double minus_log_rho2_e = 0.0;  ///< c = -ln(rho^2 e), slender-body theory; positive while rho < 0.606
   double with_minus_log_rho2_e = 0.0;
 };
 

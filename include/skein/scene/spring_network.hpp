@@ -1,9 +1,8 @@
 #pragma once
 
-#include <skein/scene/fiber.hpp>
-
 #include <array>
 #include <cstdint>
+#include <skein/scene/fiber.hpp>
 #include <vector>
 
 namespace skein {

@@ -3,6 +3,7 @@
 #include <skein/core/types.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace skein {
 
@@ -11,8 +12,12 @@ class RightHandSide {
  public:
   virtual ~RightHandSide() = default;
 
-  /// Overwrites velocity, [n_nodes, 3]. Counts as one evaluation.
+  /// Overwrites velocity, [n_nodes, 3], length / time. Counts as one evaluation.
   virtual void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) = 0;
+
+  /// What is wrong with these positions, naming the node; empty where they are fit to go on from. One pass over the
+  /// nodes on the device.
+  virtual std::string find_fault(const ConstVectors& position) const = 0;
 
   virtual std::int64_t evaluations() const = 0;
 };

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <skein/core/types.hpp>
+#include <skein/scene/fiber.hpp>
+
+#include <span>
+#include <vector>
+
+namespace skein {
+
+/// Centroids of all sections of all fibers, computed on the device. @returns [n_sections], length
+std::vector<Vec3> compute_centreline(const std::vector<Fiber>& fibers, const ConstVectors& position);
+
+/// The sections of one fiber in a list of all sections.
+inline std::span<const Vec3> centreline_of(const Fiber& fiber, const std::vector<Vec3>& centreline) {
+  return std::span(centreline).subspan(fiber.first_section, fiber.config.sections);
+}
+
+/// Unsigned curvature at each section: of the circle through it and the sections `reach` before and after it, fewer near
+/// an end. End sections take the value of their neighbour; a fiber of two sections is straight.
+/// @returns [n_sections of the fiber], 1 / length
+std::vector<double> compute_curvature(std::span<const Vec3> centreline, int reach = 2);
+
+/// Sum of the distances between neighbouring centroids, length; at rest (N_f - 1) / N_f of the fiber's length.
+double compute_length(std::span<const Vec3> centreline);
+
+/// From the first section to the last, length.
+Vec3 compute_end_to_end(std::span<const Vec3> centreline);
+
+/// Two sections of one fiber are distant from each other when more than this many radii of fiber lie between them.
+inline constexpr double distant_radii = 10.0;
+
+/// The smallest distance between the surfaces of two fibers, or of distant sections of one, taken as spheres about the
+/// sections' centroids; negative where they overlap. Infinite where there is no such pair. length
+double compute_smallest_gap(const std::vector<Fiber>& fibers, const std::vector<Vec3>& centreline);
+
+}  // namespace skein

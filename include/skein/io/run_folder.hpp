@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+
+namespace skein {
+
+/// Where each file of a run lies. A run writes nothing outside its folder.
+class RunFolder {
+ public:
+  /// Makes the folder with its parents, and puts the scene into it.
+  ///
+  /// @param scene      text of the resolved scene
+  /// @param overwrite  clear what an earlier run left there (and nothing else) instead of refusing
+  /// @throws Error(cannot_create) if the folder cannot be made, if it holds a run and overwrite is false, or if it
+  /// holds
+  ///         anything but a run; Error(io_error) if the disk is full or fails.
+  static RunFolder create(const std::filesystem::path& path, const std::string& scene, bool overwrite);
+
+  /// The folder of an earlier run. @throws Error(missing_input) if there is none.
+  static RunFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path scene() const { return path_ / "scene.toml"; }
+  std::filesystem::path index() const { return path_ / "trajectory.h5"; }
+  std::filesystem::path xdmf() const { return path_ / "trajectory.xdmf"; }
+  std::filesystem::path segments() const { return path_ / "segments"; }
+  std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
+  std::filesystem::path run_log() const { return path_ / "run.log"; }
+  std::filesystem::path events() const { return path_ / "events.jsonl"; }
+
+ private:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+  std::filesystem::path path_;
+};
+
+}  // namespace skein

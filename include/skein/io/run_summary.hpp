@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace skein {
+
+/// What a run folder holds, in a few numbers.
+struct RunSummary {
+  std::string title;
+  std::string status;  ///< "running" until the run ends; a killed one says so for ever
+  std::int64_t frames = 0;
+  std::int64_t steps = 0;  ///< recorded, accepted ones
+  std::int64_t segments = 0;
+  double last_time = 0.0;  ///< of the last frame; NaN where there is none
+};
+
+/// @throws Error(missing_input) if there is no run folder, Error(damaged_data) naming the file that is unreadable or
+/// gone
+RunSummary read_run_summary(const std::filesystem::path& folder);
+
+}  // namespace skein

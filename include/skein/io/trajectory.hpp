@@ -1,0 +1,54 @@
+#pragma once
+
+#include <skein/core/vec3.hpp>
+#include <skein/scene/fiber.hpp>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace skein {
+
+/// All nodes at one moment, with what is derived from them; row-major, as files hold it.
+struct Frame {
+  std::int64_t step = 0;  ///< accepted steps before this moment
+  double time = 0.0;
+  std::vector<Vec3> position;     ///< [n_nodes], length
+  std::vector<Vec3> centreline;   ///< [n_sections], section centroids, length
+  std::vector<double> curvature;  ///< [n_sections], unsigned, 1 / length
+};
+
+/// Small numbers of one accepted step.
+struct StepRecord {
+  std::int64_t step = 0;
+  double time = 0.0;
+  double dt = 0.0;
+  double error = 0.0;                 ///< estimated local error over tolerance
+  double spectral_radius = 0.0;       ///< 1 / time
+  std::int64_t evaluations = 0;       ///< of the right-hand side, since the start of the run
+  double smallest_gap = 0.0;          ///< between surfaces of distant sections, length
+  std::vector<double> energy;         ///< [n_fibers], elastic
+  std::vector<double> length;         ///< [n_fibers], of the centreline
+  std::vector<double> curvature_max;  ///< [n_fibers], 1 / length
+  std::vector<Vec3> end_to_end;       ///< [n_fibers], last section centroid - first, length
+};
+
+/// A number, or a list such as one number per fiber, with its unit ("" where it has no dimension).
+struct Quantity {
+  std::variant<double, std::vector<double>> value;
+  std::string unit;
+};
+
+/// What does not change during a run: the shape of all arrays, and what a reader needs to make sense of them.
+struct TrajectoryLayout {
+  std::vector<Fiber> fibers;
+  std::vector<double> blobs;                         ///< [n_nodes], length
+  std::vector<std::array<std::int32_t, 2>> springs;  ///< [n_springs], nodes
+  std::map<std::string, std::string> attributes;     ///< of /parameters: "title", "scene", "version", "build", ...
+  std::map<std::string, Quantity> parameters;        ///< datasets of /parameters: "bending_rigidity", ...
+};
+
+}  // namespace skein

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <skein/model/background_flow.hpp>
+
+namespace skein {
+
+/// Row i, column j: d u_i / d x_j, 1 / time.
+using VelocityGradient = std::array<std::array<double, 3>, 3>;
+
+/// u = (rate y, 0, 0).
+VelocityGradient make_shear_gradient(double rate);
+
+/// u = rate (-x, y, 0): compression along x.
+VelocityGradient make_planar_extension_gradient(double rate);
+
+/// u = G (x - origin), the same at all times.
+class LinearFlow : public BackgroundFlow {
+ public:
+  LinearFlow(const VelocityGradient& gradient, Vec3 origin) : gradient_(gradient), origin_(origin) {}
+
+  void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const override;
+  std::string describe() const override;
+
+ private:
+  VelocityGradient gradient_;
+  Vec3 origin_;
+};
+
+}  // namespace skein

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <skein/hydro/mobility.hpp>
+#include <skein/model/background_flow.hpp>
+#include <skein/model/spring_forces.hpp>
+#include <skein/scene/fiber.hpp>
+#include <skein/time/right_hand_side.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace skein {
+
+/// Fibers in a viscous fluid: velocity = background flow + M(position) spring force(position).
+class FiberDynamics final : public RightHandSide {
+ public:
+  FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<SpringForces> springs,
+                std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility);
+
+  void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) override;
+
+  /// A node that is not finite, or so far from its section's centre that no spring network holds it: a section of
+  /// radius R whose node is at more than burst_ratio R has burst.
+  std::string find_fault(const ConstVectors& position) const override;
+  static constexpr double burst_ratio = 2.0;
+
+  std::int64_t evaluations() const override { return evaluations_; }
+  const SpringForces& springs() const { return *springs_; }
+  const BackgroundFlow& flow() const { return *flow_; }
+  const Mobility& mobility() const { return *mobility_; }
+
+ private:
+  std::vector<Fiber> fibers_;
+  std::unique_ptr<SpringForces> springs_;
+  std::unique_ptr<BackgroundFlow> flow_;
+  std::unique_ptr<Mobility> mobility_;
+  Scalars blob_;
+  Vectors force_;
+  std::int64_t evaluations_ = 0;
+};
+
+}  // namespace skein

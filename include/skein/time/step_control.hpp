@@ -1,0 +1,32 @@
+#pragma once
+
+namespace skein {
+
+/// Chooses the next step from estimated errors: 1 is just tolerable. Predictive controller of Watts and Gustafsson as in
+/// Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88, 315 (1998), for errors per unit time of a method of second
+/// order (so that an error goes as the square of the step).
+class StepControl {
+ public:
+  static constexpr double safety = 0.8;
+  static constexpr double max_growth = 5.0;
+  static constexpr double max_cut = 0.1;
+
+  /// The step after an accepted one. @param error  > = 0, <= 1
+  double after_accepted(double dt, double error);
+
+  /// The step to try after a rejected one. @param error  > 1, or not finite
+  double after_rejected(double dt, double error);
+
+  struct Memory {
+    double last_dt = 0.0;  ///< of the last accepted step; 0 before the first
+    double last_error = 0.0;
+    bool just_rejected = false;
+  };
+  const Memory& memory() const { return memory_; }
+  void restore(const Memory& memory) { memory_ = memory; }
+
+ private:
+  Memory memory_;
+};
+
+}  // namespace skein

@@ -1,0 +1,148 @@
+#include "kernels/spring_force.hpp"
+
+#include <skein/core/error.hpp>
+
+#include "kernels/spring_tile.hpp"
+
+namespace skein {
+namespace {
+
+/// Stencil of one fiber as a kernel reads it.
+struct StencilPointers {
+  const double* stiffness;
+  const double* inverse_rest_length;
+};
+
+template <class Space>
+KOKKOS_INLINE_FUNCTION StencilPointers stencil_of(const SpringArrays<Space>& springs, const FiberSprings& fiber) {
+  return {springs.stiffness.data() + fiber.first_entry, springs.inverse_rest_length.data() + fiber.first_entry};
+}
+
+/// Force on one node of all its springs.
+template <class Space>
+KOKKOS_INLINE_FUNCTION Vec3 force_on_node(const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
+                                          const int node) {
+  const FiberSprings fiber = springs.fiber(springs.fiber_of_node(node));
+  const StencilPointers stencil = stencil_of(springs, fiber);
+  const int n = fiber.nodes_per_section;
+  const int section = (node - fiber.first_node) / n;
+  const int a = (node - fiber.first_node) % n;
+  const Vec3 x = load(position, node);
+  const int first = math::larger(0, section - fiber.reach);
+  const int last = math::smaller(fiber.n_sections - 1, section + fiber.reach);
+
+  Vec3 force;
+  for (int other_section = first; other_section <= last; ++other_section) {
+    // Springs are listed from the earlier section to the later one.
+    const int sense = other_section < section ? -1 : 1;
+    const int row = sense * (other_section - section) * n;
+    const int first_other = fiber.first_node + other_section * n;
+    for (int b = 0; b < n; ++b) {
+      const int steps = sense * (b - a);
+      const int entry = row + (steps < 0 ? steps + n : steps);
+      const double stiffness = stencil.stiffness[entry];
+      const Vec3 d = x - load(position, first_other + b);
+      const double r_squared = dot(d, d);
+      if (stiffness == 0.0 || r_squared == 0.0) continue;
+      force = force + stiffness * (math::inverse_sqrt(r_squared) - stencil.inverse_rest_length[entry]) * d;
+    }
+  }
+  return force;
+}
+
+/// Energy of the springs inside a section and from it to later ones.
+template <class Space>
+KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& springs,
+                                                  const ConstVectorView<Space>& position, const int global_section) {
+  const FiberSprings fiber = springs.fiber(springs.fiber_of_section(global_section));
+  const StencilPointers stencil = stencil_of(springs, fiber);
+  const int n = fiber.nodes_per_section;
+  const int section = global_section - fiber.first_section;
+  const int first = fiber.first_node + section * n;
+  const int last_offset = math::smaller(fiber.reach, fiber.n_sections - 1 - section);
+
+  double energy = 0.0;
+  for (int offset = 0; offset <= last_offset; ++offset) {
+    for (int a = 0; a < n; ++a) {
+      const Vec3 x = load(position, first + a);
+      for (int b = offset == 0 ? a + 1 : 0; b < n; ++b) {
+        const int entry = offset * n + (b >= a ? b - a : b - a + n);
+        const double inverse_rest_length = stencil.inverse_rest_length[entry];
+        const double strain = norm(x - load(position, first + offset * n + b)) * inverse_rest_length - 1.0;
+        energy += 0.5 * stencil.stiffness[entry] / inverse_rest_length * strain * strain;
+      }
+    }
+  }
+  return energy;
+}
+
+void compute_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
+                     const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
+  using Policy = Kokkos::RangePolicy<HostSpace>;
+  const int n_nodes = force.extent_int(0);
+  const int n_tiles = springs.fiber_of_tile.extent_int(0);
+  Kokkos::parallel_for("skein::compute_spring_force", Policy(space, 0, n_tiles),
+                       [=](const int tile) { compute_tile_force(springs, tile, position, force); });
+
+  const int n_reactions = springs.reaction.extent_int(0);
+  Kokkos::parallel_for("skein::add_spring_reaction", Policy(space, 0, n_nodes), [=](const int node) {
+    for (int row = node; row < n_reactions; row += n_nodes)
+      store(force, node, load(force, node) + load(springs.reaction, row));
+  });
+}
+
+template <class Space>
+void check_extents(const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
+                   const VectorView<Space>& force) {
+  SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0) && force.extent(0) == position.extent(0),
+                "positions, forces and the nodes of the springs differ in number");
+}
+
+}  // namespace
+
+template <class Space>
+void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+                                   const ConstVectorView<Space>& position, const VectorView<Space>& force) {
+  check_extents<Space>(springs, position, force);
+  Kokkos::parallel_for(
+      "skein::compute_spring_force_by_nodes", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
+      KOKKOS_LAMBDA(const int node) { store(force, node, force_on_node<Space>(springs, position, node)); });
+}
+
+template <class Space>
+void compute_spring_force(const Space& space, const SpringArrays<Space>& springs,
+                          const ConstVectorView<Space>& position, const VectorView<Space>& force) {
+  if constexpr (on_host<Space>) {
+    if (!springs.has_wide_sections) {
+      check_extents<Space>(springs, position, force);
+      compute_on_host(space, springs, position, force);
+      return;
+    }
+  }
+  compute_spring_force_by_nodes<Space>(space, springs, position, force);
+}
+
+template <class Space>
+void compute_section_energy(const Space& space, const SpringArrays<Space>& springs,
+                            const ConstVectorView<Space>& position, const ScalarView<Space>& section_energy) {
+  SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0),
+                "positions and nodes of the springs differ in number");
+  SKEIN_REQUIRE(section_energy.extent(0) == springs.fiber_of_section.extent(0),
+                "one energy for each section is needed");
+  Kokkos::parallel_for(
+      "skein::compute_section_energy", Kokkos::RangePolicy<Space>(space, 0, section_energy.extent_int(0)),
+      KOKKOS_LAMBDA(const int section) {
+        section_energy(section) = energy_from_section<Space>(springs, position, section);
+      });
+}
+
+#define SKEIN_INSTANTIATE(S)                                                                                  \
+  template void compute_spring_force<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,          \
+                                        const VectorView<S>&);                                                \
+  template void compute_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
+                                                 const VectorView<S>&);                                       \
+  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,        \
+                                          const ScalarView<S>&);
+SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
+
+}  // namespace skein

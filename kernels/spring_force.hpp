@@ -1,0 +1,59 @@
+#pragma once
+
+#include <skein/core/types.hpp>
+
+#include "kernels/simd.hpp"
+
+namespace skein {
+
+/// Where one fiber's nodes, sections and stencil lie in the arrays of all fibers.
+struct FiberSprings {
+  int first_node = 0;
+  int first_section = 0;
+  int first_tile = 0;   ///< see sections_per_tile
+  int first_entry = 0;  ///< of its stencil in stiffness and inverse_rest_length
+  int n_sections = 0;
+  int nodes_per_section = 0;
+  int reach = 0;  ///< springs join sections up to this far apart
+};
+
+/// The springs of all fibers. Stencil entry (o, d) of a fiber, at first_entry + o nodes_per_section + d, joins node a
+/// of section s to node (a + d) mod nodes_per_section of section s + o; stiffness 0 means no spring.
+template <class Space>
+struct SpringArrays {
+  Kokkos::View<FiberSprings*, Space> fiber;    // [n_fibers]
+  Kokkos::View<int*, Space> fiber_of_node;     // [n_nodes]
+  Kokkos::View<int*, Space> fiber_of_section;  // [n_sections]
+  Kokkos::View<int*, Space> fiber_of_tile;     // [n_tiles]
+  ScalarView<Space> stiffness;                 // [n_entries], force
+  ScalarView<Space> inverse_rest_length;       // [n_entries], 1 / length
+  VectorView<Space> reaction;                  // [reach * n_nodes, 3], force; scratch of the tiles, zero at first
+  bool has_wide_sections = false;              // more than max_tile_nodes nodes on a section
+};
+
+/// The host takes this many sections of a fiber at once, one in each lane.
+inline constexpr int sections_per_tile = simd::width<double>;
+inline constexpr int max_tile_nodes = 64;
+
+/// Overwrites force, [n_nodes, 3], with the springs' force on each node:
+///
+///   force on a node = - sum over its springs of k (r/l - 1) d/r,   d = node - other node, r = |d|;   zero at r = 0
+///
+/// The order of every sum is fixed: the result does not depend on threads.
+template <class Space>
+void compute_spring_force(const Space& space, const SpringArrays<Space>& springs,
+                          const ConstVectorView<Space>& position, const VectorView<Space>& force);
+
+/// The same by one thread per node, each spring weighed at both of its nodes: the way of GPUs, and of the host where
+/// sections have more nodes than a tile holds.
+template <class Space>
+void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+                                   const ConstVectorView<Space>& position, const VectorView<Space>& force);
+
+/// Overwrites section_energy, [n_sections], with sum k l (r/l - 1)^2 / 2 over the springs inside each section and from
+/// it to later sections.
+template <class Space>
+void compute_section_energy(const Space& space, const SpringArrays<Space>& springs,
+                            const ConstVectorView<Space>& position, const ScalarView<Space>& section_energy);
+
+}  // namespace skein

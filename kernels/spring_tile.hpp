@@ -1,0 +1,139 @@
+#pragma once
+
+#include <skein/core/types.hpp>
+
+#include "kernels/simd.hpp"
+#include "kernels/spring_force.hpp"
+
+// The springs of a few sections of a fiber on the host, one section in each lane: every spring is weighed once, its
+// rest length is the same in all lanes, and any number of nodes per section fills the lanes.
+
+namespace skein {
+
+/// Nodes of the tile's sections: node a of all of them side by side.
+struct SectionTile {
+  simd::Pack<double> x[max_tile_nodes], y[max_tile_nodes], z[max_tile_nodes];
+
+  void set_to_zero(const int nodes_per_section) {
+    for (int a = 0; a < nodes_per_section; ++a) x[a] = y[a] = z[a] = simd::Pack<double>{};
+  }
+};
+
+/// 1/sqrt(x) to the last bits, x > 0: the series of (1 - e)^(-1/2) about the estimate y, where e = 1 - x y^2.
+inline simd::Pack<double> inverse_sqrt(const simd::Pack<double> x) {
+  const simd::Pack<double> y = simd::estimate_inverse_sqrt(x);
+  const simd::Pack<double> e = 1.0 - x * y * y;
+  return y + y * e * (0.5 + e * (0.375 + e * 0.3125));
+}
+
+/// Springs from node a of each section of `own` to the nodes first_other.. of the same lane of `other`.
+struct SpringRow {
+  const double* stiffness;            // [nodes_per_section], by node offset
+  const double* inverse_rest_length;  // [nodes_per_section]
+  int nodes_per_section;
+  int a;
+  int first_other;
+};
+
+/// Adds the forces of a row of springs to both of their ends.
+/// @param is_there  by lane: 1, or 0 where the fiber has ended. A stiffness that varies along the fiber would enter
+/// here.
+inline void add_row(const SpringRow& row, const simd::Pack<double> is_there, const SectionTile& own,
+                    const SectionTile& other, SectionTile& force, SectionTile& reaction) {
+  using Pack = simd::Pack<double>;
+  constexpr double smallest = 1e-300;  // keeps r = 0 finite; nothing else notices it
+  const int a = row.a;
+  const Pack x = own.x[a], y = own.y[a], z = own.z[a];
+  Pack fx = {}, fy = {}, fz = {};
+  for (int b = row.first_other; b < row.nodes_per_section; ++b) {
+    const int node_offset = b >= a ? b - a : b - a + row.nodes_per_section;
+    const double stiffness = row.stiffness[node_offset];
+    if (stiffness == 0.0) continue;
+    const Pack dx = x - other.x[b];
+    const Pack dy = y - other.y[b];
+    const Pack dz = z - other.z[b];
+    const Pack inverse_r = inverse_sqrt(dx * dx + dy * dy + dz * dz + smallest);
+    const Pack pull = is_there * (stiffness * (inverse_r - row.inverse_rest_length[node_offset]));
+    fx += pull * dx;
+    fy += pull * dy;
+    fz += pull * dz;
+    reaction.x[b] -= pull * dx;
+    reaction.y[b] -= pull * dy;
+    reaction.z[b] -= pull * dz;
+  }
+  force.x[a] += fx;
+  force.y[a] += fy;
+  force.z[a] += fz;
+}
+
+/// Sections first_section.. of a fiber, a lane each. Lanes behind the fiber's end repeat its last section.
+inline void load_tile(const ConstVectorView<HostSpace>& position, const FiberSprings& fiber, const int first_section,
+                      SectionTile& tile) {
+  for (int lane = 0; lane < sections_per_tile; ++lane) {
+    const int section = math::smaller(first_section + lane, fiber.n_sections - 1);
+    const int first = fiber.first_node + section * fiber.nodes_per_section;
+    const double *x = &position(first, 0), *y = &position(first, 1), *z = &position(first, 2);
+    for (int a = 0; a < fiber.nodes_per_section; ++a) {
+      tile.x[a][lane] = x[a];
+      tile.y[a][lane] = y[a];
+      tile.z[a][lane] = z[a];
+    }
+  }
+}
+
+/// The lanes whose section the fiber has, into rows first_row + node of an array.
+inline void store_tile(const SectionTile& tile, const FiberSprings& fiber, const int first_section, const int first_row,
+                       const VectorView<HostSpace>& force) {
+  const int n_lanes = math::smaller(sections_per_tile, fiber.n_sections - first_section);
+  for (int lane = 0; lane < n_lanes; ++lane) {
+    const int first = first_row + fiber.first_node + (first_section + lane) * fiber.nodes_per_section;
+    double *x = &force(first, 0), *y = &force(first, 1), *z = &force(first, 2);
+    for (int a = 0; a < fiber.nodes_per_section; ++a) {
+      x[a] = tile.x[a][lane];
+      y[a] = tile.y[a][lane];
+      z[a] = tile.z[a][lane];
+    }
+  }
+}
+
+/// Lanes whose section has a partner `section_offset` sections on.
+inline simd::Pack<double> lanes_with_partner(const FiberSprings& fiber, const int first_section,
+                                             const int section_offset) {
+  simd::Pack<double> is_there = {};
+  for (int lane = 0; lane < sections_per_tile; ++lane)
+    is_there[lane] = first_section + lane + section_offset < fiber.n_sections ? 1.0 : 0.0;
+  return is_there;
+}
+
+/// Springs inside the tile's sections and from them to later ones: their force on the tile's own nodes into `force`,
+/// on later sections into `reaction` (rows by section offset), which nobody else writes.
+inline void compute_tile_force(const SpringArrays<HostSpace>& springs, const int tile,
+                               const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
+  const FiberSprings fiber = springs.fiber(springs.fiber_of_tile(tile));
+  const int first_section = (tile - fiber.first_tile) * sections_per_tile;
+  const int n = fiber.nodes_per_section;
+  SectionTile own, other, own_force, reaction;
+  load_tile(position, fiber, first_section, own);
+  own_force.set_to_zero(n);
+
+  const double* stiffness = &springs.stiffness(fiber.first_entry);
+  const double* inverse_rest_length = &springs.inverse_rest_length(fiber.first_entry);
+  const simd::Pack<double> everywhere = simd::Pack<double>{} + 1.0;
+  for (int a = 0; a < n; ++a)
+    add_row({stiffness, inverse_rest_length, n, a, a + 1}, everywhere, own, own, own_force, own_force);
+
+  for (int offset = 1; offset <= fiber.reach && first_section + offset < fiber.n_sections; ++offset) {
+    stiffness += n;
+    inverse_rest_length += n;
+    const simd::Pack<double> is_there = lanes_with_partner(fiber, first_section, offset);
+    load_tile(position, fiber, first_section + offset, other);
+    reaction.set_to_zero(n);
+    for (int a = 0; a < n; ++a)
+      add_row({stiffness, inverse_rest_length, n, a, 0}, is_there, own, other, own_force, reaction);
+    const int n_nodes = force.extent_int(0);
+    store_tile(reaction, fiber, first_section + offset, (offset - 1) * n_nodes, springs.reaction);
+  }
+  store_tile(own_force, fiber, first_section, 0, force);
+}
+
+}  // namespace skein

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <skein/config/scene_config.hpp>
+#include <skein/io/trajectory.hpp>
+#include <skein/time/fiber_dynamics.hpp>
+#include <skein/time/integrator.hpp>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// What a run folder says of itself in every trajectory.
+TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text,
+                                 const std::vector<Fiber>& fibers);
+
+/// A run's first lines: version, device, size, methods and why, what it will take.
+/// @param evaluation_seconds  measured wall time of one evaluation
+std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
+                         const Integrator& integrator, double evaluation_seconds);
+
+}  // namespace skein

@@ -1,0 +1,49 @@
+#include "app/scene_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <skein/scene/calibration.hpp>
+#include <skein/scene/fiber.hpp>
+#include <skein/scene/spring_network.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace skein {
+namespace {
+
+std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const int index) {
+  const FiberConfig& config = fiber.config;
+  const BeamStiffness beam = measure_beam_stiffness(fiber);
+  std::string text = fmt::format(
+      "fiber {}: {} sections of {} nodes, length {:.6g}, radius {:g}, spacing {:.6g}, {} springs\n"
+      "  EI {:.6g} (infinite fiber {:.6g}), EA {:.6g}, GJ {:.6g}\n"
+      "  rho = R/L {:.4g}, blob/spacing {:.3g}, blob/radius {:.3g}\n",
+      index, config.sections, config.nodes_per_section, fiber.length(), config.radius, fiber.spacing(),
+      count_springs(make_spring_network(fiber)), beam.bending, beam.infinite_bending, beam.axial, beam.torsional,
+      config.radius / fiber.length(), config.blob / fiber.spacing(), config.blob / config.radius);
+  if (scene.flow.kind == "shear" && scene.flow.rate != 0.0) {
+    const auto numbers =
+        compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, scene.flow.rate, beam.bending);
+    text += fmt::format("  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
+                        "-ln(rho^2 e)\n",
+                        numbers.with_log_4e_over_rho2, numbers.with_minus_log_rho2_e);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe_scene(const SceneConfig& scene) {
+  const auto fibers = make_fibers(scene.fibers);
+  std::string text;
+  if (!scene.title.empty()) text += scene.title + "\n";
+  text += fmt::format("{} fiber{}, {} nodes\n", fibers.size(), fibers.size() == 1 ? "" : "s", count_nodes(fibers));
+  constexpr std::size_t max_described = 10;
+  for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f)
+    text += describe_fiber(scene, fibers[f], static_cast<int>(f));
+  if (fibers.size() > max_described) text += fmt::format("... and {} more\n", fibers.size() - max_described);
+  return text;
+}
+
+}  // namespace skein

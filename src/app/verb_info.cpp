@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <skein/io/run_folder.hpp>
+#include <skein/io/run_summary.hpp>
+#include <string>
+
+#include "app/json_text.hpp"
+#include "app/verbs.hpp"
+
+namespace skein {
+namespace {
+
+struct InfoOptions {
+  std::string folder;
+  bool json = false;
+};
+
+void print_lines(const std::string& scene, const RunSummary& summary) {
+  fmt::print("title: {}\nstatus: {}\nscene: {}\nframes: {}\nsteps: {}\nsegments: {}\n", summary.title, summary.status,
+             scene, summary.frames, summary.steps, summary.segments);
+  if (std::isfinite(summary.last_time)) fmt::print("last time: {}\n", summary.last_time);
+}
+
+void print_json(const std::string& scene, const RunSummary& summary) {
+  fmt::print(
+      "{{\n  \"title\": {},\n  \"status\": {},\n  \"scene\": {},\n  \"frames\": {},\n  \"steps\": {},\n"
+      "  \"segments\": {},\n  \"last_time\": {}\n}}\n",
+      quote_json(summary.title), quote_json(summary.status), quote_json(scene), summary.frames, summary.steps,
+      summary.segments, std::isfinite(summary.last_time) ? fmt::format("{}", summary.last_time) : "null");
+}
+
+int print_info(const InfoOptions& options) {
+  const RunSummary summary = read_run_summary(options.folder);
+  const std::string scene = RunFolder::open(options.folder).scene().string();
+  options.json ? print_json(scene, summary) : print_lines(scene, summary);
+  return 0;
+}
+
+}  // namespace
+
+void add_info_verb(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("info", "Say what a run folder holds");
+  const auto options = std::make_shared<InfoOptions>();
+  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
+  verb->add_flag("--json", options->json, "As JSON");
+  verb->footer(
+      "Examples:\n"
+      "  skein info tumbling\n"
+      "  skein info tumbling --json");
+  verb->callback([options, &action] { action = [options] { return print_info(*options); }; });
+}
+
+}  // namespace skein

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+namespace skein {
+
+/// What the command line asks for; returns the exit code.
+using Action = std::function<int()>;
+
+/// Adds a verb with its options to the command line. When the verb is used, it sets the action.
+using AddVerb = void (*)(CLI::App& app, Action& action);
+
+void add_run_verb(CLI::App& app, Action& action);
+void add_validate_verb(CLI::App& app, Action& action);
+void add_defaults_verb(CLI::App& app, Action& action);
+void add_info_verb(CLI::App& app, Action& action);
+void add_plot_verb(CLI::App& app, Action& action);
+
+}  // namespace skein

@@ -1,0 +1,94 @@
+#include "scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "scene_value.hpp"
+
+namespace skein {
+namespace {
+
+constexpr double n_nodes_allowed = 1e8;
+constexpr double n_frames_allowed = 1e7;
+constexpr double n_steps_allowed = 1e12;
+
+// The chord between neighbouring nodes of a section, which is also the distance of sections.
+double compute_node_spacing(const FiberConfig& fiber) {
+  return 2.0 * fiber.radius * std::sin(std::numbers::pi / fiber.nodes_per_section);
+}
+
+void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
+                 std::vector<Problem>& problems, std::vector<Problem>& warnings) {
+  // Components so small that their squares vanish cannot be normalized either.
+  if (!(norm(fiber.direction) >= 1e-100)) {
+    reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
+  }
+  const double spacing = compute_node_spacing(fiber);
+  if (fiber.blob > fiber.radius) {
+    reader.add(warnings, path + ".blob",
+               fmt::format("{}.blob {} is above the radius {}: the fiber is too thick in the fluid", path,
+                           format_number(fiber.blob), format_number(fiber.radius)));
+  } else if (fiber.blob < 0.5 * spacing) {
+    reader.add(warnings, path + ".blob",
+               fmt::format("{}.blob {} is below half of the node spacing {:.4g}: the surface leaks", path,
+                           format_number(fiber.blob), spacing));
+  }
+}
+
+void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  double n_nodes = 0.0;
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    if (!reader.is_sound(reader.path_of_fiber(i))) return;
+    const FiberConfig& fiber = scene.fibers[i];
+    n_nodes += static_cast<double>(fiber.sections) * fiber.nodes_per_section;
+    if (n_nodes <= n_nodes_allowed) continue;
+    reader.add(
+        problems, reader.path_of_fiber(i) + ".sections",
+        fmt::format("with this fiber the scene has {:.3g} nodes (sections * nodes_per_section), more than {:.0e}",
+                    n_nodes, n_nodes_allowed));
+    return;
+  }
+}
+
+void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<Problem>& problems) {
+  if (time.method == "euler" && time.step == 0.0) {
+    reader.add(problems, "time.step", "time.step must be given and above 0: euler has no error control");
+  }
+  if (time.step > time.max_step) {
+    reader.add(
+        problems, "time.step",
+        fmt::format("time.step {} is above time.max_step {}", format_number(time.step), format_number(time.max_step)));
+  }
+  const double shortest = time.step > 0.0 ? time.step : time.max_step;
+  if (time.end / shortest > n_steps_allowed) {
+    reader.add(problems, "time.end",
+               fmt::format("time.end {} would take {:.2g} steps", format_number(time.end), time.end / shortest));
+  }
+}
+
+void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  const double n_frames = scene.time.end / scene.output.frame_interval;
+  if (n_frames <= n_frames_allowed) return;
+  reader.add(problems, "output.frame_interval",
+             fmt::format("output.frame_interval {} would make {:.2g} frames until time.end {}",
+                         format_number(scene.output.frame_interval), n_frames, format_number(scene.time.end)));
+}
+
+}  // namespace
+
+void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
+                 std::vector<Problem>& warnings) {
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    const std::string path = reader.path_of_fiber(i);
+    if (reader.is_sound(path)) check_fiber(scene.fibers[i], path, reader, problems, warnings);
+  }
+  check_node_count(scene, reader, problems);
+  if (!reader.is_sound("time")) return;
+  check_time(scene.time, reader, problems);
+  if (reader.is_sound("output")) check_frame_count(scene, reader, problems);
+}
+
+}  // namespace skein

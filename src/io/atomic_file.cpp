@@ -1,0 +1,94 @@
+#include <skein/io/atomic_file.hpp>
+
+#include <skein/core/error.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace skein {
+namespace {
+
+[[noreturn]] void throw_io_error(const std::string& what, const int error_number) {
+  const bool full = error_number == ENOSPC || error_number == EDQUOT || error_number == EFBIG;
+  throw Error(ExitCode::io_error,
+              fmt::format("{}: {}.{}", what, std::strerror(error_number),
+                          full ? " Make room, then resume the run; what it wrote before is whole." : ""));
+}
+
+// A rename is on disk only when its folder is.
+void sync_folder(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) throw_io_error(fmt::format("cannot open the folder of '{}'", file.string()), errno);
+  // Some network file systems know no sync of folders; they rename in order.
+  const int error_number = ::fsync(descriptor) == 0 ? 0 : errno;
+  ::close(descriptor);
+  if (error_number != 0 && error_number != EINVAL && error_number != ENOTSUP)
+    throw_io_error(fmt::format("cannot sync the folder of '{}'", file.string()), error_number);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
+  partial_ += ".partial";
+  descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) throw_io_error(fmt::format("cannot create '{}'", partial_.string()), errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(partial_.c_str());
+}
+
+void AtomicFile::write(const void* bytes, const std::size_t n_bytes) {
+  const char* next = static_cast<const char*>(bytes);
+  std::size_t left = n_bytes;
+  while (left > 0) {
+    const ssize_t written = ::write(descriptor_, next, left);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0)
+      throw_io_error(
+          fmt::format("cannot write {} bytes to '{}', only {} of them", n_bytes, path_.string(), n_bytes - left),
+          written < 0 ? errno : ENOSPC);
+    next += written;
+    left -= static_cast<std::size_t>(written);
+  }
+  bytes_written_ += n_bytes;
+}
+
+void AtomicFile::commit() {
+  const std::string what = fmt::format("cannot put '{}' ({} bytes) on disk", path_.string(), bytes_written_);
+  if (::fsync(descriptor_) != 0) throw_io_error(what, errno);
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (::close(descriptor) != 0 || ::rename(partial_.c_str(), path_.c_str()) != 0) {
+    const int error_number = errno;
+    ::unlink(partial_.c_str());
+    throw_io_error(what, error_number);
+  }
+  sync_folder(path_.has_parent_path() ? path_.parent_path() : ".", path_);
+}
+
+void write_file_atomically(const std::filesystem::path& path, const std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.commit();
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file)
+    throw Error(ExitCode::missing_input, fmt::format("cannot open '{}': {}.", path.string(), std::strerror(errno)));
+  std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) throw Error(ExitCode::damaged_data, fmt::format("cannot read '{}'.", path.string()));
+  return content;
+}
+
+}  // namespace skein

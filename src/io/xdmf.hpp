@@ -1,0 +1,37 @@
+#pragma once
+
+#include <skein/config/scene_config.hpp>
+#include <skein/io/run_folder.hpp>
+#include <skein/scene/fiber.hpp>
+
+#include "segment.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// The text of trajectory.xdmf: one surface mesh a frame, whose points lie in the segments and whose cells lie in the
+/// index. It grows with the run.
+///
+/// Points are datasets of their own, one for each frame: of VTK's two readers the older one complains about hyperslabs
+/// (and may show the first frame at all times), the newer one gives no points for them (both seen with ParaView 5.11).
+class XdmfText {
+ public:
+  XdmfText(const std::vector<Fiber>& fibers, const OutputConfig& output);
+
+  void add_frames(const Segment& segment, const std::vector<double>& times);
+
+  /// In place of the one before; nothing while there is no frame, since readers refuse an empty collection.
+  /// @returns the bytes written
+  std::uint64_t write(const RunFolder& folder) const;
+
+ private:
+  std::string mesh_;  // what every frame says alike
+  std::string frames_;
+  int n_nodes_;
+  int float_bytes_;
+};
+
+}  // namespace skein

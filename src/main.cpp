@@ -1,0 +1,7 @@
+#include "app/cli.hpp"
+
+int main(int argc, char** argv) {
+  return skein::run_command_line(argc, argv,
+                                 {skein::add_run_verb, skein::add_validate_verb, skein::add_defaults_verb,
+                                  skein::add_info_verb, skein::add_plot_verb});
+}

@@ -1,0 +1,217 @@
+"""Checks `skein plot`'s script on small runs made here: check_plots.py PATH/plot_run.py
+
+Pictures are files of their format, of a size for print, with the tube as thick as the run says; what a run lacks is
+said in one line; damaged, missing and unwritable folders end with their exit codes and never with a traceback.
+"""
+import contextlib
+import io
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import matplotlib.image
+import numpy as np
+
+sys.dont_write_bytecode = True  # of the script in the sources
+
+N_FRAMES, N_SECTIONS, SPACING, RADIUS = 25, 30, 0.004, 0.007
+PICTURES = ("shapes", "angle", "curvature", "energy")
+BLUE, ORANGE = (0, 114, 178), (213, 94, 0)  # of the first and the second fiber
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit(f"check_plots: {message}")
+
+
+def make_lines(times, out_of_plane):
+    """Two fibers that turn clockwise, half a turn in the time 6, and bend. @returns [n_frames, 2 * N_SECTIONS, 3]"""
+    arclength = (np.arange(N_SECTIONS) - 0.5 * (N_SECTIONS - 1)) * SPACING
+    bend = 0.02 * np.sin(np.pi * arclength / arclength[-1])
+    lines = np.empty((len(times), 2 * N_SECTIONS, 3))
+    for frame, time in enumerate(times):
+        cosine, sine = np.cos(np.pi * time / 6.0), -np.sin(np.pi * time / 6.0)
+        x, y = cosine * arclength - sine * bend, sine * arclength + cosine * bend
+        z = out_of_plane * arclength
+        lines[frame, :N_SECTIONS] = np.stack([x, y, z], axis=1)
+        lines[frame, N_SECTIONS:] = np.stack([x, y + 0.1, z], axis=1)
+    return lines
+
+
+def write_run(folder, n_frames=N_FRAMES, n_steps=400, status="done", out_of_plane=0.0, last_is_nan=False):
+    """A run folder with one segment, seen through the virtual datasets of trajectory.h5."""
+    (folder / "segments").mkdir(parents=True)
+    times = np.linspace(0.0, 6.0, n_frames) if n_frames > 1 else np.zeros(1)
+    lines = make_lines(times, out_of_plane)
+    if last_is_nan:
+        lines[-1] = np.nan
+    step_times = np.linspace(0.01, 6.0, n_steps)
+    at_steps = make_lines(step_times, out_of_plane)
+    ends = at_steps[:, [N_SECTIONS - 1, -1]] - at_steps[:, [0, N_SECTIONS]]
+    elements = {
+        "centreline": (lines, times),
+        "curvature": (np.abs(lines[:, :, 1]) * 300.0, times),
+        "energy": (np.stack([step_times, 2.0 * step_times], axis=1) * 1e-6, step_times),
+        "length": (np.full((n_steps, 2), (N_SECTIONS - 1) * SPACING), step_times),
+        "end_to_end": (ends, step_times),
+        "dt": (np.full(n_steps, 0.015), step_times),
+        "evaluations": (np.arange(n_steps) * 12, step_times),
+        "smallest_gap": (np.full(n_steps, np.inf), step_times),
+    }
+    with h5py.File(folder / "segments/000000.h5", "w") as segment, h5py.File(folder / "trajectory.h5", "w") as index:
+        for name, (values, moments) in elements.items():
+            for part, content in (("value", values), ("time", moments)):
+                dataset = f"/observables/{name}/{part}"
+                segment[dataset] = content
+                if content.shape[0] == 0:
+                    index[dataset] = content
+                    continue
+                layout = h5py.VirtualLayout(content.shape, content.dtype)
+                layout[...] = h5py.VirtualSource("segments/000000.h5", dataset, content.shape)
+                index.create_virtual_dataset(dataset, layout, fillvalue=np.nan if content.dtype.kind == "f" else -1)
+        parameters = index.create_group("parameters")
+        parameters["fiber_sections"] = np.array([N_SECTIONS] * 2, dtype="i4")
+        parameters["first_section"] = np.array([0, N_SECTIONS], dtype="i4")
+        parameters["fiber_radius"] = np.array([RADIUS] * 2)
+        parameters["fiber_length"] = np.array([N_SECTIONS * SPACING] * 2)
+        parameters.attrs["title"] = "Two fibers of $x^$ and 100 % of a_b"  # would be a broken formula
+        parameters.attrs["status"] = status
+    return folder
+
+
+class Result:
+    def __init__(self, returncode, stdout, stderr):
+        self.returncode, self.stdout, self.stderr = returncode, stdout, stderr
+
+
+def plot(script, *arguments):
+    """Runs the script in this process: to import matplotlib each time would take longer than the pictures."""
+    sys.path.insert(0, str(pathlib.Path(script).parent))
+    plot_run = __import__(pathlib.Path(script).stem)
+    sys.argv = [script, *map(str, arguments)]
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            code = plot_run.main()
+        except SystemExit as end:
+            code = end.code
+    return Result(code, out.getvalue(), err.getvalue())
+
+
+def plot_in_own_process(script, *arguments):
+    result = subprocess.run([sys.executable, script, *map(str, arguments)], capture_output=True, text=True)
+    return Result(result.returncode, result.stdout, result.stderr)
+
+
+def check_fails(script, code, words, *arguments):
+    result = plot(script, *arguments)
+    check(result.returncode == code, f"{arguments}: exit code {result.returncode}, not {code}: {result.stderr}")
+    check(words in result.stderr, f"{arguments}: {words!r} is not in {result.stderr!r}")
+
+
+def read_picture(path):
+    """[height, width, 3], 0 to 255"""
+    check(path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG")
+    pixels = (matplotlib.image.imread(path)[:, :, :3] * 255.0).round().astype(int)
+    height, width, _ = pixels.shape
+    check(600 <= width <= 2400 and 400 <= height <= 2400, f"{path} is {width} x {height} pixels")
+    n_colours = len(np.unique(pixels.reshape(-1, 3), axis=0))
+    check(n_colours > 30, f"{path} has {n_colours} colours only")
+    return pixels
+
+
+def count(pixels, colour):
+    return int((np.abs(pixels - np.array(colour)).max(axis=2) <= 2).sum())
+
+
+def check_complete_run(script, folder):
+    result = plot_in_own_process(script, write_run(folder), "--times=0")
+    check(result.returncode == 0 and not result.stderr, f"a good run: {result.returncode}, {result.stderr}")
+    paths = [folder / "plots" / f"{name}.png" for name in PICTURES]
+    check(result.stdout.split() == [str(path) for path in paths], f"not the paths of the pictures: {result.stdout}")
+    pictures = {path.stem: read_picture(path) for path in paths}
+    for name in ("shapes", "energy"):
+        for colour in (BLUE, ORANGE):
+            check(count(pictures[name], colour) > 200, f"{name}: a fiber is not drawn")
+
+    # Along the column through its middle, the fiber is as thick as the tube, to a scale told by its own length.
+    blue = np.abs(pictures["shapes"] - np.array(BLUE)).max(axis=2) <= 60
+    columns = np.flatnonzero(blue.sum(axis=0))
+    pixels_per_length = (columns[-1] - columns[0]) / ((N_SECTIONS - 1) * SPACING)
+    slope = np.pi * 0.02 / (0.5 * (N_SECTIONS - 1) * SPACING)
+    expected = 2.0 * RADIUS * np.hypot(1.0, slope) * pixels_per_length
+    middle = (columns[0] + columns[-1]) // 2
+    dark = pictures["shapes"][:, middle].max(axis=1) < 200
+    rows = np.flatnonzero(blue[:, middle])
+    first, last = rows[0], rows[-1]
+    while dark[first - 1]:
+        first -= 1
+    while dark[last + 1]:
+        last += 1
+    thickness = last - first + 1
+    check(abs(thickness / expected - 1.0) < 0.12, f"shapes: the tube is {thickness} pixels thick, not {expected:.1f}")
+
+
+def check_options(script, folder):
+    run = write_run(folder / "run", out_of_plane=3.0)
+    result = plot(script, run, "--times=1,2.99,77", "--output", folder / "new/pictures", "--format", "svg")
+    check(result.returncode == 0, result.stderr)
+    check("no frame near t = 77: t = 6 is drawn" in result.stderr, f"silent about a time out of range: {result.stderr}")
+    shapes = (folder / "new/pictures/shapes.svg").read_text()
+    for text in ("t = 1<", "t = 3<", "t = 6<", "toward the eye"):
+        check(text in shapes, f"shapes.svg does not say {text!r}")
+    angle = (folder / "new/pictures/angle.svg").read_text()
+    check(">180<" in angle and ">\u221245<" not in angle, "angle.svg: the angle does not grow to 180 degrees")
+    check(not (run / "plots").exists(), "pictures were also written into the run folder")
+    check_fails(script, 64, "--times", run, "--times=1,x")
+    check_fails(script, 64, "--format", run, "--format=gif")
+
+
+def check_poor_runs(script, folder):
+    short = plot(script, write_run(folder / "short", n_frames=1, n_steps=0, status="running"))
+    check(short.returncode == 0 and len(short.stdout.split()) == 1, f"one frame: {short.stdout}{short.stderr}")
+    check(short.stderr.count(" is not drawn: ") == 3, f"not said what is missing: {short.stderr}")
+    without_steps = plot(script, write_run(folder / "without_steps", n_steps=0))
+    paths = [pathlib.Path(path).stem for path in without_steps.stdout.split()]
+    check(paths == ["shapes", "angle", "curvature"], f"without records of steps only {paths} are drawn")
+    failed = plot(script, write_run(folder / "failed", status="failed", last_is_nan=True), "--format=svg")
+    check(failed.returncode == 0, failed.stderr)
+    shapes = (folder / "failed/plots/shapes.svg").read_text()
+    check("failed at t = 6" in shapes and "not finite" in shapes, "shapes.svg does not say that the run failed")
+
+
+def check_errors(script, folder):
+    nowhere = plot_in_own_process(script, folder / "nowhere")
+    check(nowhere.returncode == 66, f"a missing run folder: exit code {nowhere.returncode}")
+    check(nowhere.stderr == f"skein plot: the run folder {folder / 'nowhere'} is not there\n", nowhere.stderr)
+    (folder / "empty").mkdir()
+    check_fails(script, 66, "no trajectory.h5", folder / "empty")
+    (folder / "empty/trajectory.h5").write_bytes(b"not HDF5")
+    check_fails(script, 65, "cannot be read", folder / "empty")
+    lost = write_run(folder / "lost")
+    (lost / "segments/000000.h5").unlink()
+    check_fails(script, 65, "000000.h5", lost)
+    poor = write_run(folder / "poor")
+    with h5py.File(poor / "trajectory.h5", "a") as index:
+        del index["/observables/energy"]
+    check_fails(script, 65, "/observables/energy", poor)
+    (folder / "file").write_text("")
+    check_fails(script, 73, "cannot be written", write_run(folder / "run"), "-o", folder / "file/plots")
+    if os.path.exists("/dev/full"):
+        (folder / "full").mkdir()
+        (folder / "full/shapes.png.partial").symlink_to("/dev/full")
+        check_fails(script, 74, "No space left", folder / "run", "-o", folder / "full")
+
+
+def main():
+    script = sys.argv[1]
+    for part in (check_complete_run, check_options, check_poor_runs, check_errors):
+        with tempfile.TemporaryDirectory() as folder:
+            part(script, pathlib.Path(folder))
+
+
+if __name__ == "__main__":
+    main()

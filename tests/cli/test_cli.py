@@ -1,0 +1,247 @@
+"""The command line as users and scripts meet it: messages, exit codes, and nothing written after an error.
+
+Called as test_cli.py PROGRAM SOURCES, PROGRAM being the binary and SOURCES the root of the sources.
+Each bad_scenes/*.toml begins with the lines that the program must print about it:
+    #! file:line:column: message     (an end "..." stands for any text: the TOML parser's own words)
+    #$ arguments                     (added to the command)
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = SOURCES = None  # set from the arguments at the end
+
+DONE, USAGE, MISSING_INPUT, IO_ERROR, SCENE_ERROR = 0, 64, 66, 74, 78
+
+
+def skein(*arguments, cwd=None, **environment):
+    return subprocess.run(
+        [PROGRAM, *map(str, arguments)],
+        cwd=cwd,
+        env={**os.environ, **environment},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        timeout=60,
+    )
+
+
+def problem_lines(stderr):
+    """The problems in a message: all but the heading and the indented docs."""
+    return [line for line in stderr.splitlines()[1:] if not line.startswith(" ")]
+
+
+def matches(line, expected):
+    return line.startswith(expected[:-3]) if expected.endswith("...") else line == expected
+
+
+class InFreshFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, content, name="scene.toml"):
+        path = self.folder / name
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def validate_content(self, content, *arguments):
+        self.write(content)
+        return skein("validate", "scene.toml", *arguments, cwd=self.folder)
+
+
+class BadScenes(InFreshFolder):
+    def test_every_bad_scene_is_refused_with_its_messages(self):
+        scenes = sorted((SOURCES / "tests/cli/bad_scenes").glob("*.toml"))
+        self.assertGreaterEqual(len(scenes), 28)
+        for scene in scenes:
+            lines = scene.read_text().splitlines()
+            expected = [line[3:] for line in lines if line.startswith("#! ")]
+            arguments = [word for line in lines if line.startswith("#$ ") for word in line[3:].split()]
+            run_folder = self.folder / "result"
+            for verb in (["validate", scene.name], ["run", scene.name, "-o", run_folder]):
+                with self.subTest(scene=scene.name, verb=verb[0]):
+                    result = skein(*verb, *arguments, cwd=scene.parent)
+                    self.assertEqual(result.returncode, SCENE_ERROR, result.stderr)
+                    self.assertEqual(result.stdout, "")
+                    found = problem_lines(result.stderr)
+                    self.assertGreater(len(expected), 0)
+                    self.assertEqual(len(found), len(expected), result.stderr)
+                    for line, wanted in zip(found, expected):
+                        self.assertTrue(matches(line, wanted), f"\nfound    {line}\nexpected {wanted}")
+                    self.assertFalse(run_folder.exists(), "an output was made")
+
+    def check_single(self, content, expected):
+        result = self.validate_content(content)
+        self.assertEqual(result.returncode, SCENE_ERROR, result.stderr)
+        self.assertEqual(len(problem_lines(result.stderr)), 1)
+        self.assertIn(expected, result.stderr)
+
+    def test_an_empty_file_is_called_empty(self):
+        self.check_single("", "scene.toml:1:1: the file is empty")
+        self.check_single(" \n\t\n", "scene.toml:1:1: the file is empty")
+
+    def test_a_binary_file_is_called_binary(self):
+        self.check_single(pathlib.Path(PROGRAM).read_bytes()[:4096], "scene.toml:1:1: this is a binary file")
+
+    def test_invalid_utf8_is_found_at_its_place(self):
+        self.check_single(b'[fiber]\n\ntitle = "a\xff"\n', "scene.toml:3:")
+
+    def test_a_file_of_more_than_16_mib_is_refused(self):
+        self.check_single("[fiber]\n" + "#" * (16 * 1024 * 1024), "16 MiB")
+        result = self.validate_content("[fiber]\n" + "#" * (15 * 1024 * 1024))
+        self.assertEqual(result.returncode, DONE, result.stderr)
+
+    def test_deep_nesting_does_not_exhaust_the_stack(self):
+        deep_key = ".".join(["a"] * 2_000_000) + " = 1\n"
+        nested_inline = "x = " + "{" + ".".join(["b"] * 31) + " = "
+        for content in ["[fiber]\nx = " + "[" * 1_000_000, "[fiber]\n" + deep_key, "[" + deep_key[:-5] + "]\n"]:
+            self.check_single(content, "not valid TOML")
+        depth = 200
+        self.check_single("[fiber]\n" + nested_inline + ("{" + ".".join(["b"] * 31) + " = ") * depth + "1"
+                          + "}" * (depth + 1), "unknown key 'x' in [fiber]")
+
+    def test_control_characters_of_a_scene_do_not_reach_the_terminal(self):
+        result = self.validate_content('[fiber]\n"a\\u001b[31m" = 1\n')
+        self.assertEqual(result.returncode, SCENE_ERROR)
+        self.assertNotIn("\033", result.stderr)
+
+    def test_a_doc_line_follows_the_problem(self):
+        result = self.validate_content("[fiber]\nblobb = 1.0\n")
+        self.assertTrue(result.stderr.splitlines()[2].startswith("    fiber.blob: "), result.stderr)
+
+    def test_problems_as_json(self):
+        result = self.validate_content("[fiber]\nblob = -1.0\n", "--json", "--set", "flow.rate=fast")
+        self.assertEqual(result.returncode, SCENE_ERROR)
+        report = json.loads(result.stdout)
+        self.assertFalse(report["valid"])
+        first, second = report["problems"]
+        self.assertEqual((first["source"], first["line"], first["column"]), ("scene.toml", 2, 8))
+        self.assertEqual((second["source"], second["line"]), ("--set flow.rate=fast", 0))
+
+
+class GoodScenes(InFreshFolder):
+    def test_every_shipped_scene_is_valid_without_a_warning(self):
+        scenes = sorted((SOURCES / "configs").glob("*.toml"))
+        self.assertGreaterEqual(len(scenes), 2)
+        for scene in scenes:
+            with self.subTest(scene=scene.name):
+                result = skein("validate", scene)
+                self.assertEqual((result.returncode, result.stderr), (DONE, ""))
+                self.assertIn("1440 nodes", result.stdout)
+
+    def test_defaults_are_a_valid_scene(self):
+        result = skein("defaults")
+        self.assertEqual(result.returncode, DONE)
+        validated = self.validate_content(result.stdout)
+        self.assertEqual((validated.returncode, validated.stderr), (DONE, ""))
+
+    def test_the_reference_page_is_up_to_date(self):
+        page = (SOURCES / "docs/scene.md").read_text()
+        self.assertEqual(skein("defaults", "--markdown").stdout, page, "run: skein defaults --markdown > docs/scene.md")
+
+    def test_an_override_changes_the_scene(self):
+        for count, n_nodes in ((40, 720), (50, 900)):
+            result = self.validate_content("[fiber]\nsections = 20\n", "--set", f"fiber.sections={count}")
+            self.assertIn(f"{n_nodes} nodes", result.stdout)
+
+    def test_a_doubtful_blob_is_warned_of(self):
+        for blob, word in (("0.006", "too thick"), ("0.0008", "leaks")):
+            result = self.validate_content(f"[fiber]\nblob = {blob}\n")
+            self.assertEqual(result.returncode, DONE)
+            self.assertRegex(result.stderr, rf"^skein: warning: scene.toml:2:8: fiber.blob .*{word}")
+            report = json.loads(self.validate_content(f"[fiber]\nblob = {blob}\n", "--json").stdout)
+            self.assertTrue(report["valid"])
+            self.assertEqual(len(report["warnings"]), 1)
+
+
+class CommandLine(InFreshFolder):
+    def check_usage_error(self, arguments, expected):
+        result = skein(*arguments, cwd=self.folder)
+        self.assertEqual((result.returncode, result.stdout), (USAGE, ""), result.stderr)
+        self.assertIn(expected, result.stderr)
+        self.assertTrue(result.stderr.startswith("skein: "))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_wrong_usage_is_explained(self):
+        for arguments, expected in [
+            ([], "A subcommand is required"),
+            (["rnu", "scene.toml"], "unknown verb 'rnu'; did you mean 'run'?"),
+            (["xyzzy"], "unknown verb 'xyzzy'"),
+            (["--verson"], "unknown option '--verson'; did you mean '--version'?"),
+            (["run", "scene.toml"], "--output"),
+            (["run", "scene.toml", "--outptu", "result"], "unknown option '--outptu'; did you mean '--output'?"),
+            (["run", "-o", "result"], "scene is required"),
+            (["run", "scene.toml", "-o", "result", "--overwite"], "did you mean '--overwrite'?"),
+            (["run", "scene.toml", "-o", "result", "--threads", "0"], "--threads"),
+            (["run", "scene.toml", "-o", "result", "--threads", "two"], "--threads"),
+            (["run", "scene.toml", "-o", "result", "--max-walltime", "soon"], "'soon' is no duration"),
+            (["run", "scene.toml", "-o", "result", "-q", "-v"], "excludes"),
+            (["validate", "a.toml", "b.toml"], "unexpected argument 'b.toml'"),
+            (["plot", "result", "--times", "early"], "--times"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.check_usage_error(arguments, expected)
+
+    def test_a_missing_input_is_named(self):
+        for arguments in (["validate", "none.toml"], ["run", "none.toml", "-o", "result"], ["info", "none"],
+                          ["plot", "none"], ["validate", "."]):
+            with self.subTest(arguments=arguments):
+                result = skein(*arguments, cwd=self.folder)
+                self.assertEqual((result.returncode, result.stdout), (MISSING_INPUT, ""), result.stderr)
+                self.assertIn(arguments[1], result.stderr)
+                self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_help_has_examples(self):
+        for verb in ([], ["run"], ["validate"], ["defaults"], ["info"], ["plot"]):
+            with self.subTest(verb=verb):
+                result = skein(*verb, "--help")
+                self.assertEqual((result.returncode, result.stderr), (DONE, ""))
+                self.assertIn("Examples:\n  skein ", result.stdout)
+
+    def test_version_tells_the_build(self):
+        result = skein("--version")
+        self.assertEqual((result.returncode, result.stderr), (DONE, ""))
+        for name in ("skein: ", "commit: ", "compiler: ", "Kokkos: ", "backend: "):
+            self.assertIn(name, result.stdout)
+
+    def test_a_full_disk_behind_stdout_is_an_error(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("there is no /dev/full")
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "defaults"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(result.returncode, IO_ERROR)
+        self.assertIn("standard output", result.stderr)
+
+
+class OnATerminal(InFreshFolder):
+    def error_on_terminal(self, **environment):
+        import pty
+
+        master, slave = pty.openpty()
+        try:
+            variables = {name: value for name, value in os.environ.items() if name != "NO_COLOR"}
+            subprocess.run([PROGRAM, "rnu"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=slave,
+                           env={**variables, "TERM": "xterm", **environment}, timeout=60)
+            return os.read(master, 4096).decode()
+        finally:
+            os.close(master)
+            os.close(slave)
+
+    def test_colour_is_for_terminals_that_want_it(self):
+        self.assertIn("\033[1;31mskein:", self.error_on_terminal())
+        self.assertNotIn("\033", self.error_on_terminal(NO_COLOR="1"))
+        self.assertNotIn("\033", self.error_on_terminal(TERM="dumb"))
+        self.assertNotIn("\033", skein("rnu", TERM="xterm").stderr)
+
+
+if __name__ == "__main__":
+    PROGRAM, SOURCES = sys.argv[1], pathlib.Path(sys.argv[2])
+    unittest.main(argv=sys.argv[:1])

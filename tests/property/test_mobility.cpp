@@ -1,0 +1,401 @@
+#include <skein/hydro/direct_mobility.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "tests/reference/gauss_rule.hpp"
+#include "tests/reference/point_cloud.hpp"
+#include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+
+// What every Mobility must do. An implementation joins by a row in the table at the end.
+
+namespace skein {
+namespace {
+
+using reference::Cloud;
+using reference::PointForces;
+using reference::Random;
+using reference::relative_error;
+
+struct Row {
+  const char* name;
+  std::function<std::unique_ptr<Mobility>(double viscosity)> make;
+  double tolerance;  ///< error of a velocity over the largest velocity
+};
+
+std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
+
+/// A random fluid with random forces in it; no number is 1.
+struct Fluid {
+  PointForces sources;
+  double viscosity = 0.0;
+  double size = 0.0;  ///< half extent of the cloud, length
+  Random random{0};
+};
+
+/// rapidcheck draws the number of sources and a seed, and shrinks both where a property fails.
+Fluid draw_fluid(const int most_sources, const bool equal_blobs) {
+  const int n_sources = *rc::gen::resize(1000, rc::gen::inRange(1, most_sources + 1)).as("sources");
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>().as("seed");
+  const Cloud cloud = *rc::gen::elementOf(std::vector<Cloud>(std::begin(reference::all_clouds),
+                                                             std::end(reference::all_clouds)));
+  RC_TAG(reference::name_of(cloud));
+  Fluid fluid;
+  fluid.random = Random(seed);
+  fluid.viscosity = fluid.random.log_uniform(0.02, 50.0);
+  fluid.size = fluid.random.log_uniform(0.01, 100.0);
+  const double spacing = fluid.size / std::cbrt(n_sources), force = fluid.random.log_uniform(1e-3, 1e3);
+  fluid.sources.position =
+      reference::make_cloud(cloud, n_sources, fluid.random.in_cube(3.0 * fluid.size), fluid.size, fluid.random);
+  fluid.sources.force = reference::make_random_vectors(n_sources, force, fluid.random);
+  fluid.sources.blob = reference::make_random_lengths(n_sources, 0.03 * spacing, 0.3 * spacing, fluid.random);
+  if (equal_blobs) fluid.sources.blob.assign(fluid.sources.blob.size(), fluid.sources.blob.front());
+  return fluid;
+}
+
+class MobilityProperties : public ::testing::TestWithParam<Row> {
+ protected:
+  double tolerance() const { return GetParam().tolerance; }
+
+  /// Velocities at other points than the sources' own array, even where these are equal.
+  std::vector<Vec3> compute_at(const PointForces& from, const std::vector<Vec3>& target, const double viscosity) const {
+    const auto mobility = GetParam().make(viscosity);
+    const Vectors velocity("test::velocity", target.size());
+    mobility->add_velocity(on_device(from), to_device("test::target", target), velocity);
+    return to_host(velocity);
+  }
+
+  /// Velocities of the sources: the targets are the same array.
+  std::vector<Vec3> compute(const PointForces& from, const double viscosity) const {
+    const auto mobility = GetParam().make(viscosity);
+    const Sources sources = on_device(from);
+    const Vectors velocity("test::velocity", from.position.size());
+    mobility->add_velocity(sources, sources.position, velocity);
+    return to_host(velocity);
+  }
+
+  static Sources on_device(const PointForces& from) {
+    return {to_device("test::position", from.position), to_device("test::force", from.force),
+            to_device("test::blob", from.blob)};
+  }
+};
+
+double norm_of(const std::vector<Vec3>& vectors) { return std::sqrt(reference::inner_product(vectors, vectors)); }
+
+/// A rotation by a random angle about a random axis (Rodrigues), and a shift.
+struct RigidMotion {
+  Vec3 axis, shift;
+  double angle;
+
+  explicit RigidMotion(Random& random, const double size)
+      : axis(random.direction()), shift(random.in_cube(20.0 * size)), angle(random.uniform(0.3, 6.0)) {}
+  Vec3 turn(const Vec3 v) const {
+    return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1.0 - std::cos(angle)) * dot(axis, v)) * axis;
+  }
+  std::vector<Vec3> turn(std::vector<Vec3> list) const {
+    for (Vec3& v : list) v = turn(v);
+    return list;
+  }
+  std::vector<Vec3> move(std::vector<Vec3> list) const {
+    for (Vec3& v : list) v = turn(v) + shift;
+    return list;
+  }
+};
+
+TEST_P(MobilityProperties, AgreesWithTheReferenceSumAtTheSources) {
+  EXPECT_TRUE(rc::check([this] {
+    const Fluid fluid = draw_fluid(800, *rc::gen::arbitrary<bool>());
+    const double error = relative_error(
+        compute(fluid.sources, fluid.viscosity),
+        reference::compute_stokeslet_velocity(fluid.sources, fluid.sources.position, fluid.viscosity));
+    RC_LOG() << "error " << error << '\n';
+    RC_ASSERT(error <= tolerance());
+  }));
+}
+
+TEST_P(MobilityProperties, AgreesWithTheReferenceSumAtOtherTargets) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(300, false);
+    const int n_targets = 1 + static_cast<int>(fluid.random.bits() % 500);
+    const Vec3 near = fluid.sources.position.front() + fluid.random.in_cube(fluid.size);
+    const auto target = reference::make_cloud(Cloud::cube, n_targets, near, 2.0 * fluid.size, fluid.random);
+    const double error = relative_error(compute_at(fluid.sources, target, fluid.viscosity),
+                                        reference::compute_stokeslet_velocity(fluid.sources, target, fluid.viscosity));
+    RC_LOG() << "error " << error << '\n';
+    RC_ASSERT(error <= tolerance());
+  }));
+}
+
+TEST_P(MobilityProperties, DoesNotMindWhetherTargetsAreTheSourcesOwnArray) {
+  EXPECT_TRUE(rc::check([this] {
+    const Fluid fluid = draw_fluid(800, true);
+    RC_ASSERT(relative_error(compute(fluid.sources, fluid.viscosity),
+                             compute_at(fluid.sources, fluid.sources.position, fluid.viscosity)) <= 2.0 * tolerance());
+  }));
+}
+
+TEST_P(MobilityProperties, IsSymmetric) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(800, true);
+    PointForces other = fluid.sources;
+    other.force = reference::make_random_vectors(static_cast<int>(other.force.size()), 0.7, fluid.random);
+    const auto u = compute(fluid.sources, fluid.viscosity), v = compute(other, fluid.viscosity);
+    const double g_m_f = reference::inner_product(other.force, u), f_m_g = reference::inner_product(fluid.sources.force, v);
+    RC_ASSERT(std::abs(g_m_f - f_m_g) <=
+              tolerance() * (norm_of(other.force) * norm_of(u) + norm_of(fluid.sources.force) * norm_of(v)));
+  }));
+}
+
+// A force at A moves B as the same force at B moves A, also where A are sources and B targets.
+TEST_P(MobilityProperties, IsSymmetricBetweenTwoSetsOfPoints) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(400, true);
+    PointForces other = fluid.sources;
+    const int n_others = 1 + static_cast<int>(fluid.random.bits() % 300);
+    other.position = reference::make_cloud(Cloud::tube, n_others, fluid.sources.position.front(), fluid.size, fluid.random);
+    other.force = reference::make_random_vectors(n_others, 0.7, fluid.random);
+    other.blob.assign(n_others, fluid.sources.blob.front());
+    const auto u = compute_at(fluid.sources, other.position, fluid.viscosity);
+    const auto v = compute_at(other, fluid.sources.position, fluid.viscosity);
+    RC_ASSERT(std::abs(reference::inner_product(other.force, u) - reference::inner_product(fluid.sources.force, v)) <=
+              tolerance() * (norm_of(other.force) * norm_of(u) + norm_of(fluid.sources.force) * norm_of(v)));
+  }));
+}
+
+// Opposite forces on near neighbours dissipate least: forces alternate, and points come in pairs less than a blob apart.
+TEST_P(MobilityProperties, DissipatesForDistinctPoints) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(400, true);
+    PointForces& nodes = fluid.sources;
+    const double blob = nodes.blob.front();
+    const bool in_pairs = *rc::gen::arbitrary<bool>();
+    for (std::size_t i = 1; in_pairs && i < nodes.position.size(); i += 2) {
+      nodes.position[i] = nodes.position[i - 1] + 0.5 * blob * fluid.random.direction();
+      nodes.force[i] = -nodes.force[i - 1];
+    }
+    const double power = reference::inner_product(nodes.force, compute(nodes, fluid.viscosity));
+    RC_ASSERT(power > 0.0);
+  }));
+}
+
+// Forces that cancel at each point do nothing at all: zero but for rounding, which may have any sign.
+TEST_P(MobilityProperties, NeverGainsEnergyFromCoincidentPoints) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(400, true);
+    PointForces& nodes = fluid.sources;
+    const bool cancelling = *rc::gen::arbitrary<bool>();
+    for (std::size_t i = 1; i < nodes.position.size(); i += 2) {
+      nodes.position[i] = nodes.position[i - 1];
+      if (cancelling) nodes.force[i] = -nodes.force[i - 1];
+    }
+    const auto u = compute(nodes, fluid.viscosity);
+    const double power = reference::inner_product(nodes.force, u);
+    // What the same forces would do without cancelling sets the scale of rounding.
+    double scale = 0.0;
+    for (const Vec3 f : nodes.force) scale += dot(f, f) / (4.0 * std::numbers::pi * fluid.viscosity * nodes.blob.front());
+    RC_ASSERT(std::isfinite(power));
+    RC_ASSERT(power >= -10.0 * tolerance() * scale);
+    if (!cancelling) RC_ASSERT(power > 0.0);
+  }));
+}
+
+TEST_P(MobilityProperties, TurnsAndMovesWithItsNodes) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(700, *rc::gen::arbitrary<bool>());
+    const RigidMotion motion(fluid.random, fluid.size);
+    PointForces moved = fluid.sources;
+    moved.position = motion.move(moved.position);
+    moved.force = motion.turn(moved.force);
+    const auto velocity = compute(moved, fluid.viscosity);
+    // Moving the nodes rounds their positions: blobs of 1e-3 sizes see that as some 1e-12 of a velocity.
+    RC_ASSERT(relative_error(velocity, motion.turn(compute(fluid.sources, fluid.viscosity))) <=
+              2.0 * tolerance() + 1e-11);
+  }));
+}
+
+TEST_P(MobilityProperties, MirrorsWithItsNodes) {
+  EXPECT_TRUE(rc::check([this] {
+    const Fluid fluid = draw_fluid(500, true);
+    const auto mirrored = [](std::vector<Vec3> list) {
+      for (Vec3& v : list) v.y = -v.y;
+      return list;
+    };
+    PointForces image = fluid.sources;
+    image.position = mirrored(image.position);
+    image.force = mirrored(image.force);
+    RC_ASSERT(relative_error(compute(image, fluid.viscosity), mirrored(compute(fluid.sources, fluid.viscosity))) <=
+              2.0 * tolerance());
+  }));
+}
+
+TEST_P(MobilityProperties, IsInverseToTheViscosity) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(500, *rc::gen::arbitrary<bool>());
+    const double factor = fluid.random.log_uniform(0.01, 100.0);
+    auto thick = compute(fluid.sources, factor * fluid.viscosity);
+    for (Vec3& u : thick) u = factor * u;
+    RC_ASSERT(relative_error(thick, compute(fluid.sources, fluid.viscosity)) <= 2.0 * tolerance());
+  }));
+}
+
+// Lengths times c, forces alike: velocities over c. Nothing in the fluid has a length of its own but the blob.
+TEST_P(MobilityProperties, ScalesWithLength) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(500, *rc::gen::arbitrary<bool>());
+    const double factor = fluid.random.log_uniform(0.01, 100.0);
+    PointForces large = fluid.sources;
+    for (Vec3& x : large.position) x = factor * x;
+    for (double& blob : large.blob) blob *= factor;
+    auto velocity = compute(large, fluid.viscosity);
+    for (Vec3& u : velocity) u = factor * u;
+    RC_ASSERT(relative_error(velocity, compute(fluid.sources, fluid.viscosity)) <= 2.0 * tolerance() + 1e-11);
+  }));
+}
+
+TEST_P(MobilityProperties, SuperposesForces) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(600, *rc::gen::arbitrary<bool>());
+    const double a = fluid.random.uniform(-3.0, 3.0), b = fluid.random.uniform(-3.0, 3.0);
+    PointForces other = fluid.sources, both = fluid.sources;
+    other.force = reference::make_random_vectors(static_cast<int>(other.force.size()),
+                                                 norm(fluid.sources.force.front()), fluid.random);
+    for (std::size_t i = 0; i < both.force.size(); ++i) both.force[i] = a * both.force[i] + b * other.force[i];
+    const auto u = compute(fluid.sources, fluid.viscosity), v = compute(other, fluid.viscosity),
+               w = compute(both, fluid.viscosity);
+    double difference = 0.0, scale = 0.0;
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      difference = std::max(difference, norm(w[i] - (a * u[i] + b * v[i])));
+      scale = std::max({scale, norm(a * u[i]), norm(b * v[i])});
+    }
+    RC_ASSERT(difference <= 4.0 * tolerance() * scale);
+  }));
+}
+
+TEST_P(MobilityProperties, IsTheSumOfItsParts) {
+  EXPECT_TRUE(rc::check([this] {
+    const Fluid fluid = draw_fluid(600, false);
+    const auto& all = fluid.sources;
+    const auto cut = static_cast<std::ptrdiff_t>(all.position.size() / 3);
+    const PointForces first{{all.position.begin(), all.position.begin() + cut},
+                            {all.force.begin(), all.force.begin() + cut},
+                            {all.blob.begin(), all.blob.begin() + cut}};
+    const PointForces rest{{all.position.begin() + cut, all.position.end()},
+                           {all.force.begin() + cut, all.force.end()},
+                           {all.blob.begin() + cut, all.blob.end()}};
+    // One after the other into the same velocities.
+    const auto mobility = GetParam().make(fluid.viscosity);
+    const ConstVectors target = to_device("test::target", all.position);
+    const Vectors velocity("test::velocity", all.position.size());
+    mobility->add_velocity(on_device(first), target, velocity);
+    mobility->add_velocity(on_device(rest), target, velocity);
+    RC_ASSERT(relative_error(to_host(velocity), compute(all, fluid.viscosity)) <= 3.0 * tolerance());
+  }));
+}
+
+TEST_P(MobilityProperties, AddsToTheVelocity) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(600, *rc::gen::arbitrary<bool>());
+    auto expected = compute(fluid.sources, fluid.viscosity);
+    const auto before = reference::make_random_vectors(static_cast<int>(expected.size()), norm(expected.front()), fluid.random);
+    const auto mobility = GetParam().make(fluid.viscosity);
+    const Sources sources = on_device(fluid.sources);
+    const Vectors velocity = to_device("test::velocity", before);
+    mobility->add_velocity(sources, sources.position, velocity);
+    for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = expected[i] + before[i];
+    RC_ASSERT(relative_error(to_host(velocity), expected) <= 2.0 * tolerance());
+  }));
+}
+
+TEST_P(MobilityProperties, NoForceNoVelocity) {
+  EXPECT_TRUE(rc::check([this] {
+    Fluid fluid = draw_fluid(600, *rc::gen::arbitrary<bool>());
+    fluid.sources.force.assign(fluid.sources.force.size(), Vec3{});
+    for (const Vec3 u : compute(fluid.sources, fluid.viscosity)) RC_ASSERT(u == Vec3{});
+  }));
+}
+
+TEST_P(MobilityProperties, RepeatsItselfToTheBit) {
+  EXPECT_TRUE(rc::check([this] {
+    const Fluid fluid = draw_fluid(700, *rc::gen::arbitrary<bool>());
+    RC_ASSERT(compute(fluid.sources, fluid.viscosity) == compute(fluid.sources, fluid.viscosity));
+  }));
+}
+
+// One object, many calls: nothing may be left over from other positions, forces, blobs or numbers of nodes.
+TEST_P(MobilityProperties, RemembersNothing) {
+  EXPECT_TRUE(rc::check([this] {
+    const Fluid fluid = draw_fluid(500, *rc::gen::arbitrary<bool>()), other = draw_fluid(500, *rc::gen::arbitrary<bool>());
+    const auto mobility = GetParam().make(fluid.viscosity);
+    const Sources theirs = on_device(other.sources), ours = on_device(fluid.sources);
+    const Vectors ignored("test::velocity", other.sources.position.size());
+    mobility->add_velocity(theirs, theirs.position, ignored);
+    const Vectors velocity("test::velocity", fluid.sources.position.size());
+    mobility->add_velocity(ours, ours.position, velocity);
+    RC_ASSERT(to_host(velocity) == compute(fluid.sources, fluid.viscosity));
+    const auto n = static_cast<double>(fluid.sources.position.size()), m = static_cast<double>(other.sources.position.size());
+    RC_ASSERT(mobility->pairs() == n * n + m * m);
+  }));
+}
+
+// What flows into a sphere flows out of it, wherever the forces are: inside, outside, and their blobs across its surface.
+TEST_P(MobilityProperties, IsDivergenceFree) {
+  std::vector<double> cosine, weight;
+  const int n_polar = 40, n_around = 80;
+  reference::make_gauss_rule(n_polar, cosine, weight);
+  EXPECT_TRUE(rc::check([&, this] {
+    Fluid fluid = draw_fluid(60, false);
+    const double radius = fluid.size;
+    const Vec3 center = fluid.random.in_cube(5.0 * radius);
+    // Not nearer than 0.4 radii to the surface, where 40 rings resolve the flow to 1e-13.
+    for (std::size_t i = 0; i < fluid.sources.position.size(); ++i) {
+      const bool inside = fluid.random.bits() % 2 == 0;
+      const double r = radius * (inside ? fluid.random.uniform(0.0, 0.6) : fluid.random.uniform(1.6, 3.0));
+      fluid.sources.position[i] = center + r * fluid.random.direction();
+      fluid.sources.blob[i] = radius * fluid.random.log_uniform(0.01, 1.0);
+    }
+    std::vector<Vec3> normal, target;
+    std::vector<double> area;
+    for (int i = 0; i < n_polar; ++i)
+      for (int j = 0; j < n_around; ++j) {
+        const double across = std::sqrt(1.0 - cosine[i] * cosine[i]), angle = 2.0 * std::numbers::pi * j / n_around;
+        normal.push_back({across * std::cos(angle), across * std::sin(angle), cosine[i]});
+        target.push_back(center + radius * normal.back());
+        area.push_back(radius * radius * weight[i] * 2.0 * std::numbers::pi / n_around);
+      }
+    const auto velocity = compute_at(fluid.sources, target, fluid.viscosity);
+    double flux = 0.0, through = 0.0;
+    for (std::size_t k = 0; k < target.size(); ++k) {
+      flux += area[k] * dot(velocity[k], normal[k]);
+      through += area[k] * norm(velocity[k]);
+    }
+    RC_LOG() << "flux " << flux / through << '\n';
+    RC_ASSERT(std::abs(flux) <= (2.0 * tolerance() + 1e-13) * through);
+  }));
+}
+
+TEST_P(MobilityProperties, SaysWhatItIs) { EXPECT_FALSE(GetParam().make(1.7)->describe().empty()); }
+
+TEST_P(MobilityProperties, NoSourcesAndNoTargetsAreAllowed) {
+  EXPECT_EQ(compute_at({}, {{0.1, 0.2, 0.3}}, 1.7), std::vector<Vec3>(1));
+  EXPECT_TRUE(compute_at({{{0.1, 0.2, 0.3}}, {{1.0, 2.0, 3.0}}, {0.3}}, {}, 1.7).empty());
+}
+
+std::unique_ptr<Mobility> make_direct_in_double(const double viscosity) {
+  return std::make_unique<DirectMobility>(viscosity, Precision::in_double);
+}
+std::unique_ptr<Mobility> make_direct_in_single(const double viscosity) {
+  return std::make_unique<DirectMobility>(viscosity, Precision::in_single);
+}
+
+INSTANTIATE_TEST_SUITE_P(, MobilityProperties,
+                         ::testing::Values(Row{"direct_in_double", make_direct_in_double, 1e-14},
+                                           Row{"direct_in_single", make_direct_in_single, 5e-6}),
+                         ::testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace skein

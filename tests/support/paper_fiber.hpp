@@ -1,0 +1,46 @@
+#pragma once
+
+#include <skein/analysis/centreline.hpp>
+#include <skein/config/scene_config.hpp>
+#include <skein/hydro/direct_mobility.hpp>
+#include <skein/model/background_flow.hpp>
+#include <skein/model/spring_forces.hpp>
+#include <skein/time/fiber_dynamics.hpp>
+#include <skein/time/integrator.hpp>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+namespace skein::test {
+
+/// One of the paper's fibers along x in its shear flow, ready to run.
+struct PaperFiber {
+  explicit PaperFiber(const int sections) {
+    FiberConfig fiber;
+    fiber.sections = sections;
+    scene.fibers = {fiber};
+    fibers = make_fibers(scene.fibers);
+    dynamics = std::make_unique<FiberDynamics>(
+        fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
+        std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double));
+    state.position = to_device("position", make_surface_nodes(fibers));
+  }
+
+  int n_nodes() const { return state.position.extent_int(0); }
+  double length() const { return fibers.front().length(); }
+
+  SceneConfig scene;
+  std::vector<Fiber> fibers;
+  std::unique_ptr<FiberDynamics> dynamics;
+  State state;
+};
+
+/// Degrees clockwise from +x, between -90 and 270: continuous over the half turn of a fiber that starts along x.
+inline double clockwise_angle(const Vec3 v) {
+  const double angle = -std::atan2(v.y, v.x) * 180.0 / std::numbers::pi;
+  return angle < -90.0 ? angle + 360.0 : angle;
+}
+
+}  // namespace skein::test

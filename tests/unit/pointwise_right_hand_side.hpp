@@ -1,0 +1,48 @@
+#pragma once
+
+#include <skein/core/types.hpp>
+#include <skein/time/right_hand_side.hpp>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace skein {
+
+/// dx_i/dt = velocity(t, i, x_i), each node by itself, on the host: equations whose exact solutions are known.
+class PointwiseRightHandSide final : public RightHandSide {
+ public:
+  using Velocity = std::function<Vec3(double time, int node, Vec3 x)>;
+
+  explicit PointwiseRightHandSide(Velocity velocity) : velocity_(std::move(velocity)) {}
+
+  void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
+    ++evaluations_;
+    std::vector<Vec3> list = to_host(position);
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = velocity_(time, static_cast<int>(i), list[i]);
+    Kokkos::deep_copy(velocity, to_device("test::velocity", list));
+  }
+
+  std::string find_fault(const ConstVectors& position) const override {
+    const std::vector<Vec3> list = to_host(position);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!(dot(list[i], list[i]) < 1e200)) return "node " + std::to_string(i) + " is not finite";
+    return {};
+  }
+
+  std::int64_t evaluations() const override { return evaluations_; }
+
+ private:
+  Velocity velocity_;
+  std::int64_t evaluations_ = 0;
+};
+
+/// Decay at three rates per node: rate(3 i + c) for component c of node i.
+inline PointwiseRightHandSide make_decay(const std::function<double(int)>& rate) {
+  return PointwiseRightHandSide([rate](double, const int node, const Vec3 x) {
+    return Vec3{-rate(3 * node) * x.x, -rate(3 * node + 1) * x.y, -rate(3 * node + 2) * x.z};
+  });
+}
+
+}  // namespace skein

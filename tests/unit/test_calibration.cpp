@@ -1,0 +1,137 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <skein/core/error.hpp>
+#include <skein/scene/calibration.hpp>
+
+namespace skein {
+namespace {
+
+Fiber make_fiber(const int sections, const double stiffness = 0.0112) {
+  FiberConfig config;
+  config.sections = sections;
+  config.spring_stiffness = stiffness;
+  return make_fibers({config})[0];
+}
+
+/// mu_bar of LaGrone, Cortez, Yan, Fauci 2019, as printed, by number of sections.
+const std::vector<std::pair<int, double>> printed_numbers = {
+    {80, 5.35e2}, {113, 1.97e3}, {301, 8.22e4}, {536, 7.51e5}, {1313, 2.37e7}};
+
+double elasto_viscous_number(const Fiber& fiber) {
+  const double bending = measure_beam_stiffness(fiber).bending;
+  return compute_elasto_viscous_numbers(fiber, 1.0, 2.5, bending).with_log_4e_over_rho2;
+}
+
+TEST(Calibration, BendingRigidityOfAnInfiniteFiber) {
+  for (const int sections : {2, 80, 113})
+    EXPECT_NEAR(measure_beam_stiffness(make_fiber(sections)).infinite_bending, 4.88344e-6, 5e-12) << sections;
+}
+
+TEST(Calibration, AFiberHasOneLinkLessThanSections) {
+  for (const int sections : {2, 80, 1313}) {
+    const BeamStiffness stiffness = measure_beam_stiffness(make_fiber(sections));
+    EXPECT_NEAR(stiffness.bending / 4.88344e-6, (sections - 1.0) / sections, 1e-6) << sections;
+  }
+}
+
+TEST(Calibration, RigidityFallsWithCurvature) {
+  const std::vector<std::pair<double, double>> known = {
+      {0.1, 4.88344e-6}, {10, 4.88275e-6}, {50, 4.86646e-6}, {100, 4.81715e-6}};
+  for (const int sections : {80, 301})
+    for (const auto& [curvature, rigidity] : known)
+      EXPECT_NEAR(measure_bending_rigidity(make_fiber(sections), curvature) * sections / (sections - 1), rigidity,
+                  1e-5 * rigidity)
+          << curvature;
+}
+
+TEST(Calibration, RigidityIsProportionalToTheStiffness) {
+  const double once = measure_beam_stiffness(make_fiber(20, 0.01)).bending;
+  EXPECT_NEAR(measure_beam_stiffness(make_fiber(20, 0.03)).bending, 3.0 * once, 1e-12 * once);
+}
+
+TEST(Calibration, PlaneSectionModuli) {
+  const BeamStiffness stiffness = measure_beam_stiffness(make_fiber(80));
+  EXPECT_NEAR(stiffness.axial, 0.415912, 1e-5 * 0.415912);
+  EXPECT_NEAR(stiffness.torsional, 1.19214e-5, 1e-5 * 1.19214e-5);
+}
+
+TEST(Calibration, ModuliAreSecondDerivativesOfTheEnergy) {
+  const Fiber fiber = make_fiber(6);
+  const SpringNetwork network = make_spring_network(fiber);
+  const auto straight = make_surface_nodes({fiber});
+  const double links = 5 * fiber.spacing();
+  const BeamStiffness stiffness = measure_beam_stiffness(fiber);
+  constexpr double strain = 1e-5;
+  constexpr double twist = 1e-2;  // angle per length
+
+  std::vector<Vec3> stretched = straight, twisted = straight;
+  for (Vec3& x : stretched) x.x *= 1.0 + strain;
+  for (Vec3& x : twisted) {
+    const double angle = twist * x.x;
+    x = {x.x, std::cos(angle) * x.y - std::sin(angle) * x.z, std::sin(angle) * x.y + std::cos(angle) * x.z};
+  }
+  EXPECT_NEAR(2.0 * compute_spring_energy(network, stretched) / (strain * strain * links), stiffness.axial,
+              1e-4 * stiffness.axial);
+  EXPECT_NEAR(2.0 * compute_spring_energy(network, twisted) / (twist * twist * links), stiffness.torsional,
+              1e-4 * stiffness.torsional);
+}
+
+TEST(Calibration, BentFiberKeepsItsSectionsAndItsCentrelineLength) {
+  const Fiber fiber = make_fiber(40);
+  constexpr double curvature = 30.0;
+  const auto nodes = make_bent_nodes(fiber, curvature);
+  ASSERT_EQ(nodes.size(), 720u);
+  const Vec3 centre{0.0, 1.0 / curvature, 0.0};
+  const auto centroid = [&](const int section) {
+    Vec3 sum;
+    for (int a = 0; a < 18; ++a) sum = sum + nodes[18 * section + a];
+    return sum / 18.0;
+  };
+  const double chord = 2.0 / curvature * std::sin(0.5 * curvature * fiber.spacing());
+  for (int section = 0; section < 40; ++section) {
+    const Vec3 spoke = centroid(section) - centre;
+    EXPECT_NEAR(norm(spoke), 1.0 / curvature, 1e-14);
+    if (section > 0) {
+      EXPECT_NEAR(norm(centroid(section) - centroid(section - 1)), chord, 1e-14);
+    }
+    for (int a = 0; a < 18; ++a) {
+      const Vec3 arm = nodes[18 * section + a] - centroid(section);
+      EXPECT_NEAR(norm(arm), 0.005, 1e-15);
+      EXPECT_NEAR(dot(arm, cross(spoke, {0, 0, 1})), 0.0, 1e-16);
+    }
+  }
+  EXPECT_THROW(make_bent_nodes(fiber, 0.0), Error);
+}
+
+TEST(Calibration, ElastoViscousNumbersArePrintedOnesToHalfAPercent) {
+  for (const auto& [sections, printed] : printed_numbers)
+    EXPECT_NEAR(elasto_viscous_number(make_fiber(sections)), printed, 0.005 * printed) << sections;
+}
+
+TEST(Calibration, ASlightlyStifferSpringGivesThePrintedNumbersToThreeDigits) {
+  for (const auto& [sections, printed] : printed_numbers) {
+    const double number = elasto_viscous_number(make_fiber(sections, 0.011237));
+    const double digit = std::pow(10.0, std::floor(std::log10(printed)) - 2);
+    EXPECT_EQ(std::round(number / digit), std::round(printed / digit)) << sections << ": " << number;
+  }
+}
+
+TEST(Calibration, BothElastoViscousNumbersNameTheirLogarithm) {
+  const Fiber fiber = make_fiber(80);
+  const double length = fiber.length();
+  const auto numbers = compute_elasto_viscous_numbers(fiber, 1.7, -0.6, 3e-6);
+  const double rho = 0.005 / length;
+
+  EXPECT_NEAR(numbers.slenderness, rho, 1e-15);
+  EXPECT_NEAR(numbers.log_4e_over_rho2, std::log(4.0) + 1.0 - 2.0 * std::log(rho), 1e-13);
+  EXPECT_NEAR(numbers.minus_log_rho2_e, -1.0 - 2.0 * std::log(rho), 1e-13);
+  const double ratio = 8.0 * std::numbers::pi * 1.7 * 0.6 * length * length * length * length / 3e-6;
+  EXPECT_NEAR(numbers.with_log_4e_over_rho2, ratio / numbers.log_4e_over_rho2, 1e-12 * ratio);
+  EXPECT_NEAR(numbers.with_minus_log_rho2_e, ratio / numbers.minus_log_rho2_e, 1e-12 * ratio);
+  EXPECT_THROW(compute_elasto_viscous_numbers(fiber, 1.7, 2.5, 0.0), Error);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,117 @@
+#include <skein/core/error.hpp>
+#include <skein/io/atomic_file.hpp>
+#include <skein/io/run_folder.hpp>
+#include <skein/io/run_summary.hpp>
+#include <skein/io/trajectory_writer.hpp>
+
+#include "tests/unit/error_code.hpp"
+#include "tests/unit/file_size_limit.hpp"
+#include "tests/unit/scratch_folder.hpp"
+#include "tests/unit/synthetic_run.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(RunFolder, RefusesWhatItWouldDestroy) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run";
+  write_three_segments(RunFolder::create(run, "scene", false), {});
+  EXPECT_EQ(code_of([&] { RunFolder::create(run, "scene", false); }), ExitCode::cannot_create);
+  EXPECT_EQ(read_run_summary(run).frames, 5);
+
+  const fs::path own = scratch.path() / "own";
+  fs::create_directory(own);
+  write_file_atomically(own / "scene.toml", "mine");
+  std::string message;
+  EXPECT_EQ(code_of([&] { RunFolder::create(own, "scene", true); }, &message), ExitCode::cannot_create);
+  EXPECT_NE(message.find(own.string()), std::string::npos) << message;
+  EXPECT_EQ(read_file(own / "scene.toml"), "mine");
+  EXPECT_EQ(code_of([&] { RunFolder::create(own / "scene.toml", "scene", true); }), ExitCode::cannot_create);
+  EXPECT_EQ(code_of([&] { RunFolder::create(own / "scene.toml" / "run", "scene", true); }), ExitCode::cannot_create);
+}
+
+TEST(RunFolder, OverwritesOnlyWhatARunWrote) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run";
+  write_three_segments(RunFolder::create(run, "scene", false), {});
+  write_file_atomically(run / "notes.txt", "mine");
+  write_file_atomically(run / "segments" / "notes.h5", "mine");
+  write_file_atomically(run / "segments" / "000009.h5.partial", "left by a kill");
+  RunFolder::create(run, "new scene", true);
+
+  EXPECT_EQ(names_in(run), (std::set<std::string>{"notes.txt", "scene.toml", "segments"}));
+  EXPECT_EQ(names_in(run / "segments"), (std::set<std::string>{"notes.h5"}));
+  EXPECT_EQ(read_file(run / "scene.toml"), "new scene");
+}
+
+TEST(RunSummary, CountsWhatIsThere) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run";
+  write_three_segments(RunFolder::create(run, "scene", false), {});
+
+  const RunSummary summary = read_run_summary(run);
+  EXPECT_EQ(summary.title, "two synthetic tubes");
+  EXPECT_EQ(summary.status, "done");
+  EXPECT_EQ(summary.frames, 5);
+  EXPECT_EQ(summary.steps, 40);
+  EXPECT_EQ(summary.segments, 3);
+  EXPECT_EQ(summary.last_time, 0.05 * 4);
+}
+
+TEST(RunSummary, ReadsARunThatHasNotWrittenAFrame) {
+  const ScratchFolder scratch;
+  const RunFolder folder = RunFolder::create(scratch.path() / "run", "scene", false);
+  const TrajectoryWriter writer(folder, make_synthetic_layout(), {});
+
+  const RunSummary summary = read_run_summary(folder.path());
+  EXPECT_EQ(summary.status, "running");
+  EXPECT_EQ(summary.frames, 0);
+  EXPECT_TRUE(std::isnan(summary.last_time));
+}
+
+TEST(RunSummary, NamesTheFileThatIsMissingOrDamaged) {
+  const ScratchFolder scratch;
+  const RunFolder folder = RunFolder::create(scratch.path() / "run", "scene", false);
+  EXPECT_EQ(code_of([&] { read_run_summary(scratch.path() / "nowhere"); }), ExitCode::missing_input);
+  EXPECT_EQ(code_of([&] { read_run_summary(folder.path()); }), ExitCode::missing_input);  // no index yet
+
+  write_three_segments(folder, {});
+  fs::rename(folder.segments() / "000001.h5", scratch.path() / "000001.h5");
+  std::string message;
+  EXPECT_EQ(code_of([&] { read_run_summary(folder.path()); }, &message), ExitCode::damaged_data);
+  EXPECT_NE(message.find("000001.h5"), std::string::npos) << message;
+
+  for (const std::uintmax_t size : {0, 7, 100, 3000}) {
+    fs::resize_file(folder.index(), size);
+    EXPECT_EQ(code_of([&] { read_run_summary(folder.path()); }, &message), ExitCode::damaged_data) << size;
+    EXPECT_NE(message.find("trajectory.h5"), std::string::npos) << message;
+  }
+}
+
+TEST(AtomicFile, LeavesTheOldFileWhenTheDiskIsFull) {
+  const ScratchFolder scratch;
+  const fs::path path = scratch.path() / "file";
+  write_file_atomically(path, "old");
+  std::string message;
+  {
+    const FileSizeLimit limit(1000);
+    EXPECT_EQ(code_of([&] { write_file_atomically(path, std::string(5000, 'x')); }, &message), ExitCode::io_error);
+  }
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(names_in(scratch.path()), std::set<std::string>{"file"});
+  EXPECT_NE(message.find(path.string()), std::string::npos) << message;
+  EXPECT_NE(message.find("5000 bytes"), std::string::npos) << message;
+  EXPECT_NE(message.find("only 1000"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,207 @@
+#include <gtest/gtest.h>
+
+#include <skein/config/nearest_name.hpp>
+#include <skein/config/scene_file.hpp>
+#include <skein/config/scene_reference.hpp>
+#include <string>
+#include <vector>
+
+namespace skein {
+namespace {
+
+SceneConfig read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return read_scene_text(text, "scene.toml", overrides).config;
+}
+
+std::vector<std::string> problems_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  std::vector<std::string> lines;
+  try {
+    read(text, overrides);
+  } catch (const SceneError& error) {
+    for (const Problem& problem : error.problems()) {
+      const std::string description = problem.describe();
+      lines.push_back(description.substr(0, description.find('\n')));
+    }
+  }
+  return lines;
+}
+
+// Every value differs from its default, and many have no short decimal form.
+SceneConfig make_unusual_scene() {
+  SceneConfig scene;
+  scene.title = "quotes \" and \\, a tab\t, a line\nand \xc3\xa9";
+  scene.seed = 9223372036854775807u;
+  scene.fluid.viscosity = 1.0 / 3.0;
+  scene.flow = {"none", -1e-7 / 7.0};
+  scene.fibers.resize(2);
+  scene.fibers[0] = {113, 9, 0.1 + 0.2, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0}, {0.0, 2.0, -1e-3 / 9.0}, -33.3};
+  scene.fibers[1].blob = 5e-3 / 1.7;
+  scene.hydrodynamics.precision = "single";
+  scene.time = {"euler", 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0};
+  scene.output = {1.0 / 30.0, "single"};
+  return scene;
+}
+
+void expect_same(const SceneConfig& a, const SceneConfig& b) {
+  EXPECT_EQ(a.title, b.title);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.fluid.viscosity, b.fluid.viscosity);
+  EXPECT_EQ(a.flow.kind, b.flow.kind);
+  EXPECT_EQ(a.flow.rate, b.flow.rate);
+  ASSERT_EQ(a.fibers.size(), b.fibers.size());
+  for (std::size_t i = 0; i < a.fibers.size(); ++i) {
+    EXPECT_EQ(a.fibers[i].sections, b.fibers[i].sections);
+    EXPECT_EQ(a.fibers[i].nodes_per_section, b.fibers[i].nodes_per_section);
+    EXPECT_EQ(a.fibers[i].radius, b.fibers[i].radius);
+    EXPECT_EQ(a.fibers[i].spring_stiffness, b.fibers[i].spring_stiffness);
+    EXPECT_EQ(a.fibers[i].blob, b.fibers[i].blob);
+    EXPECT_EQ(a.fibers[i].center, b.fibers[i].center);
+    EXPECT_EQ(a.fibers[i].direction, b.fibers[i].direction);
+    EXPECT_EQ(a.fibers[i].roll, b.fibers[i].roll);
+  }
+  EXPECT_EQ(a.hydrodynamics.method, b.hydrodynamics.method);
+  EXPECT_EQ(a.hydrodynamics.precision, b.hydrodynamics.precision);
+  EXPECT_EQ(a.time.method, b.time.method);
+  EXPECT_EQ(a.time.end, b.time.end);
+  EXPECT_EQ(a.time.step, b.time.step);
+  EXPECT_EQ(a.time.tolerance, b.time.tolerance);
+  EXPECT_EQ(a.time.max_step, b.time.max_step);
+  EXPECT_EQ(a.output.frame_interval, b.output.frame_interval);
+  EXPECT_EQ(a.output.precision, b.output.precision);
+}
+
+TEST(SceneFile, MissingKeysKeepTheDefaultsOfTheStructs) {
+  SceneConfig defaults;
+  defaults.fibers.resize(1);
+  expect_same(read("[fiber]\n"), defaults);
+}
+
+TEST(SceneFile, TakesEveryKind) {
+  const SceneConfig scene = read(
+      "title = 'one'\nseed = 7\nfluid.viscosity = 2\n[flow]\nkind = \"none\"\n"
+      "[[fiber]]\nsections = 12\ncenter = [1, 2.5, -3e-1]\n[[fiber]]\nroll = 20.0\n");
+  EXPECT_EQ(scene.title, "one");
+  EXPECT_EQ(scene.seed, 7u);
+  EXPECT_EQ(scene.fluid.viscosity, 2.0);
+  EXPECT_EQ(scene.flow.kind, "none");
+  ASSERT_EQ(scene.fibers.size(), 2u);
+  EXPECT_EQ(scene.fibers[0].sections, 12);
+  EXPECT_EQ(scene.fibers[0].center, (Vec3{1.0, 2.5, -0.3}));
+  EXPECT_EQ(scene.fibers[1].sections, 80);
+  EXPECT_EQ(scene.fibers[1].roll, 20.0);
+}
+
+TEST(SceneFile, WrittenSceneReadsBackToTheSameBits) {
+  const SceneConfig scene = make_unusual_scene();
+  const std::string written = write_scene(scene);
+  expect_same(read(written), scene);
+  EXPECT_EQ(write_scene(read(written)), written);
+}
+
+TEST(SceneFile, WrittenSceneShowsAllKeysOfTheDefaults) {
+  SceneConfig defaults;
+  defaults.fibers.resize(1);
+  // The defaults with comments taken out are the plain scene.
+  std::string plain;
+  std::string line;
+  for (const char c : write_commented_defaults()) {
+    line += c;
+    if (c != '\n') continue;
+    if (line[0] != '#') plain += line;
+    line.clear();
+  }
+  EXPECT_EQ(plain.substr(plain.find("title")), write_scene(defaults));
+}
+
+TEST(SceneOverrides, ApplyToAllFibersOrOne) {
+  const std::string text = "[[fiber]]\nsections = 10\n[[fiber]]\n[[fiber]]\nsections = 30\n";
+  const SceneConfig all = read(text, {"fiber.sections=113", "fiber[1].roll=30.0", "fiber[2].sections=7"});
+  EXPECT_EQ(all.fibers[0].sections, 113);
+  EXPECT_EQ(all.fibers[1].sections, 113);
+  EXPECT_EQ(all.fibers[2].sections, 7);
+  EXPECT_EQ(all.fibers[0].roll, 0.0);
+  EXPECT_EQ(all.fibers[1].roll, 30.0);
+  EXPECT_EQ(read("[fiber]\n", {"fiber[0].roll=15"}).fibers[0].roll, 15.0);
+}
+
+TEST(SceneOverrides, TakeTomlAndBareWords) {
+  const SceneConfig scene = read("[fiber]\n", {"time.method=euler", "time.step=1e-3", "title=a long fiber", "seed=3",
+                                               "fiber.center=[0.5, 0, -1]", "flow.kind=\"none\"", "seed=4"});
+  EXPECT_EQ(scene.time.method, "euler");
+  EXPECT_EQ(scene.time.step, 1e-3);
+  EXPECT_EQ(scene.title, "a long fiber");
+  EXPECT_EQ(scene.seed, 4u);
+  EXPECT_EQ(scene.fibers[0].center, (Vec3{0.5, 0.0, -1.0}));
+  EXPECT_EQ(scene.flow.kind, "none");
+}
+
+TEST(SceneOverrides, HideTheMistakeThatTheyReplace) {
+  EXPECT_EQ(problems_of("[fiber]\nblob = -1.0\n").size(), 1u);
+  EXPECT_EQ(read("[fiber]\nblob = -1.0\n", {"fiber.blob=0.002"}).fibers[0].blob, 0.002);
+}
+
+TEST(SceneOverrides, AreNamedInProblems) {
+  EXPECT_EQ(problems_of("[fiber]\n", {"fiber.sections=0", "fiber[1].roll=1.0", "a.b.c=1", "seed=1\nx=2", "=3"}),
+            (std::vector<std::string>{
+                "--set fiber.sections=0: fiber.sections must be 2 to 1000000000, not 0",
+                "--set fiber[1].roll=1.0: there is no fiber[1]: the scene's last is fiber[0]",
+                "--set a.b.c=1: write TABLE.KEY=VALUE, as in fiber.sections=113",
+                "--set seed=1 x=2: more than one value",
+                "--set =3: write TABLE.KEY=VALUE, as in fiber.sections=113",
+            }));
+}
+
+TEST(SceneProblems, AreAllReportedInTheOrderOfTheFile) {
+  EXPECT_EQ(problems_of("[time]\nend = -1.0\n[fluid]\nviscosity = nan\nsed = 3\n[fiber]\nsections = 8.0\n"),
+            (std::vector<std::string>{
+                "scene.toml:2:7: time.end must be 0 or more, not -1.0",
+                "scene.toml:4:13: fluid.viscosity must be a finite number, not nan",
+                "scene.toml:5:1: unknown key 'sed' in [fluid]; known are viscosity",
+                "scene.toml:7:12: fiber.sections must be an integer, not 8.0",
+            }));
+}
+
+TEST(SceneProblems, BoundsThemselvesAreAllowed) {
+  EXPECT_EQ(problems_of("[fiber]\nsections = 2\nnodes_per_section = 3\nroll = -360\n"), std::vector<std::string>());
+  EXPECT_EQ(problems_of("[fiber]\nsections = 1\n").size(), 1u);
+  EXPECT_EQ(problems_of("[fiber]\nnodes_per_section = 2\n").size(), 1u);
+  EXPECT_EQ(problems_of("[fiber]\nroll = -360.1\n").size(), 1u);
+}
+
+TEST(SceneProblems, NodesOfAllFibersAreCounted) {
+  const std::string half = "[[fiber]]\nsections = 50000\nnodes_per_section = 1000\n";
+  EXPECT_EQ(problems_of(half + half), std::vector<std::string>());
+  ASSERT_EQ(problems_of(half + half + "[[fiber]]\n").size(), 1u);
+  EXPECT_NE(problems_of(half + half + "[[fiber]]\n")[0].find("nodes"), std::string::npos);
+}
+
+TEST(SceneWarnings, ComeWhereTheBlobLeavesItsRange) {
+  // Half of the node spacing 2 R sin(pi / 18) is 0.000868241 at R = 0.005.
+  const auto n_warnings = [](const std::string& blob) {
+    return read_scene_text("[fiber]\nblob = " + blob + "\n", "scene.toml", {}).warnings.size();
+  };
+  EXPECT_EQ(n_warnings("0.00501"), 1u);
+  EXPECT_EQ(n_warnings("0.005"), 0u);
+  EXPECT_EQ(n_warnings("0.000869"), 0u);
+  EXPECT_EQ(n_warnings("0.000868"), 1u);
+}
+
+TEST(NearestName, CountsEdits) {
+  EXPECT_EQ(compute_edit_distance("", "blob"), 4);
+  EXPECT_EQ(compute_edit_distance("blob", "blob"), 0);
+  EXPECT_EQ(compute_edit_distance("blbo", "blob"), 1);  // neighbours swapped
+  EXPECT_EQ(compute_edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(compute_edit_distance("sitting", "kitten"), 3);
+}
+
+TEST(NearestName, IsGivenOnlyWhereItMayBeMeant) {
+  const std::vector<std::string> known{"blob", "roll", "radius", "sections"};
+  EXPECT_EQ(find_nearest_name("blobb", known), "blob");
+  EXPECT_EQ(find_nearest_name("Radius", known), "radius");
+  EXPECT_EQ(find_nearest_name("section", known), "sections");
+  EXPECT_EQ(find_nearest_name("temperature", known), "");
+  EXPECT_EQ(find_nearest_name("x", known), "");
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,246 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <skein/core/error.hpp>
+#include <skein/model/spring_forces.hpp>
+
+namespace skein {
+namespace {
+
+using Long = long double;
+struct LongVec {
+  Long x = 0, y = 0, z = 0;
+};
+
+struct Elastic {
+  std::vector<LongVec> force;
+  Long energy = 0;
+};
+
+/// The springs again, in long double: every pair of nodes of a fiber whose sections differ by at most one, with the
+/// rest length measured on the straight fiber along x. Shares no code with the library.
+void add_reference(const FiberConfig& config, const int first, const std::vector<Vec3>& position, Elastic& elastic) {
+  const int n = config.nodes_per_section;
+  const Long pi = std::acos(Long(-1));
+  const Long spacing = 2 * Long(config.radius) * std::sin(pi / n);
+  const auto rest = [&](const int i) {
+    return LongVec{(i / n) * spacing, config.radius * std::cos(2 * pi * (i % n) / n),
+                   config.radius * std::sin(2 * pi * (i % n) / n)};
+  };
+  for (int i = 0; i < config.sections * n; ++i) {
+    for (int j = 0; j < i; ++j) {
+      if (i / n - j / n > 1) continue;
+      const LongVec p = rest(i), q = rest(j);
+      const Long l = std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
+      const Vec3 a = position[first + i], b = position[first + j];
+      const LongVec d{Long(a.x) - b.x, Long(a.y) - b.y, Long(a.z) - b.z};
+      const Long r = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+      elastic.energy += config.spring_stiffness * l * (r / l - 1) * (r / l - 1) / 2;
+      if (r == 0) continue;
+      const Long pull = -config.spring_stiffness * (r / l - 1) / r;
+      LongVec &f = elastic.force[first + i], &g = elastic.force[first + j];
+      f = {f.x + pull * d.x, f.y + pull * d.y, f.z + pull * d.z};
+      g = {g.x - pull * d.x, g.y - pull * d.y, g.z - pull * d.z};
+    }
+  }
+}
+
+FiberConfig make_config(const int sections, const int nodes_per_section, const double radius, const double stiffness) {
+  FiberConfig config;
+  config.sections = sections;
+  config.nodes_per_section = nodes_per_section;
+  config.radius = radius;
+  config.spring_stiffness = stiffness;
+  config.direction = {0.3, -1.0, 0.8};
+  return config;
+}
+
+/// Every node moved by up to `amount` radii in each direction.
+std::vector<Vec3> deform(const std::vector<Fiber>& fibers, const double amount, const unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<Vec3> position = make_surface_nodes(fibers);
+  for (const Fiber& fiber : fibers)
+    for (int i = 0; i < fiber.n_nodes(); ++i) {
+      const Vec3 shift{uniform(generator), uniform(generator), uniform(generator)};
+      position[fiber.first_node + i] = position[fiber.first_node + i] + amount * fiber.config.radius * shift;
+    }
+  return position;
+}
+
+std::vector<Vec3> forces_of(const SpringForces& springs, const std::vector<Vec3>& position) {
+  // Filled with rubbish: compute overwrites.
+  const Vectors force = to_device("force", std::vector<Vec3>(position.size(), Vec3{7.0, -3.0, 1e9}));
+  springs.compute_forces(to_device("position", position), force);
+  return to_host(force);
+}
+
+/// Shapes of one or two fibers, with sections on both sides of the number of lanes that a tile has.
+struct Shape {
+  std::vector<FiberConfig> configs;
+  double deformation;
+};
+
+std::vector<Shape> shapes() {
+  std::vector<Shape> all;
+  for (const int n : {3, 4, 7, 18})
+    for (const int sections : {2, 3, 8, 9, 17})
+      for (const double deformation : {0.02, 1.5}) all.push_back({{make_config(sections, n, 0.3, 0.7)}, deformation});
+  all.push_back({{make_config(11, 18, 0.3, 0.7), make_config(7, 5, 0.05, 2.3)}, 0.1});
+  all.push_back({{make_config(3, 70, 0.3, 0.7), make_config(4, 6, 0.1, 1.9)}, 0.1});  // more nodes than a tile holds
+  return all;
+}
+
+TEST(SpringForce, MatchesTheReferenceInRandomShapes) {
+  for (const Shape& shape : shapes()) {
+    const auto fibers = make_fibers(shape.configs);
+    const auto position = deform(fibers, shape.deformation, 11);
+    const auto force = forces_of(SpringForces(fibers), position);
+
+    Elastic reference{std::vector<LongVec>(position.size()), 0};
+    for (const Fiber& fiber : fibers) add_reference(fiber.config, fiber.first_node, position, reference);
+    Long largest = 0, error = 0;
+    for (std::size_t i = 0; i < position.size(); ++i) {
+      const LongVec f = reference.force[i];
+      largest = std::max(largest, std::hypot(f.x, f.y, f.z));
+      error = std::max(error, std::hypot(f.x - force[i].x, f.y - force[i].y, f.z - force[i].z));
+    }
+    // A last bit of r/l counts as much more of r/l - 1.
+    EXPECT_LT(static_cast<double>(error / largest), 5e-15 + 1e-15 / shape.deformation)
+        << shape.configs[0].sections << " sections of " << shape.configs[0].nodes_per_section << " nodes";
+  }
+}
+
+TEST(SpringForce, EnergiesMatchTheReferenceFiberByFiber) {
+  for (const Shape& shape : shapes()) {
+    const auto fibers = make_fibers(shape.configs);
+    const auto position = deform(fibers, shape.deformation, 12);
+    const auto energy = SpringForces(fibers).compute_energies(to_device("position", position));
+
+    ASSERT_EQ(energy.size(), fibers.size());
+    for (std::size_t i = 0; i < fibers.size(); ++i) {
+      Elastic reference{std::vector<LongVec>(position.size()), 0};
+      add_reference(fibers[i].config, fibers[i].first_node, position, reference);
+      EXPECT_NEAR(energy[i] / static_cast<double>(reference.energy), 1.0, 1e-13);
+    }
+  }
+}
+
+TEST(SpringForce, NoNetForceAndNoNetTorqueInAnyShape) {
+  for (const Shape& shape : shapes()) {
+    const auto fibers = make_fibers(shape.configs);
+    const auto position = deform(fibers, shape.deformation, 13);
+    const auto force = forces_of(SpringForces(fibers), position);
+    for (const Fiber& fiber : fibers) {
+      Vec3 net, torque;
+      double size = 0.0, moment = 0.0;
+      for (int i = fiber.first_node; i < fiber.first_node + fiber.n_nodes(); ++i) {
+        net = net + force[i];
+        torque = torque + cross(position[i], force[i]);
+        size += norm(force[i]);
+        moment += norm(position[i]) * norm(force[i]);
+      }
+      EXPECT_LT(norm(net), 1e-13 * size);
+      EXPECT_LT(norm(torque), 1e-13 * moment);
+    }
+  }
+}
+
+TEST(SpringForce, IsMinusTheGradientOfTheEnergy) {
+  const auto fibers = make_fibers({make_config(5, 18, 0.3, 0.7), make_config(4, 4, 0.1, 1.9)});
+  const SpringForces springs(fibers);
+  const auto position = deform(fibers, 0.3, 14);
+  const auto force = forces_of(springs, position);
+  const auto energy = [&](const std::vector<Vec3>& at) {
+    const auto both = springs.compute_energies(to_device("position", at));
+    return both[0] + both[1];
+  };
+  constexpr double step = 1e-5;
+  for (std::size_t node = 0; node < position.size(); node += 7) {
+    for (double Vec3::*component : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+      auto ahead = position, behind = position;
+      ahead[node].*component += step;
+      behind[node].*component -= step;
+      EXPECT_NEAR(force[node].*component, (energy(behind) - energy(ahead)) / (2 * step), 1e-7) << node;
+    }
+  }
+}
+
+TEST(SpringForce, StraightFiberIsAtRest) {
+  const auto fibers = make_fibers({make_config(40, 18, 0.005, 0.0112)});
+  for (const Vec3 f : forces_of(SpringForces(fibers), make_surface_nodes(fibers))) EXPECT_LT(norm(f), 1e-14);
+}
+
+TEST(SpringForce, AStretchedFiberPullsItsEndsTogether) {
+  const auto fibers = make_fibers({make_config(10, 6, 0.3, 0.7)});
+  auto position = make_surface_nodes(fibers);
+  const Vec3 along = fibers[0].config.direction / norm(fibers[0].config.direction);
+  for (Vec3& x : position) x = x + 0.1 * dot(x, along) * along;
+  const auto force = forces_of(SpringForces(fibers), position);
+  EXPECT_GT(dot(force.front(), along), 0.01);
+  EXPECT_LT(dot(force.back(), along), -0.01);
+}
+
+TEST(SpringForce, SpringsOfLengthZeroExertNoForceAndNoNaN) {
+  const auto fibers = make_fibers({make_config(3, 7, 0.3, 0.7), make_config(3, 66, 0.3, 0.7)});
+  const SpringForces springs(fibers);
+  const std::vector<Vec3> one_point(count_nodes(fibers), Vec3{0.4, -1.0, 2.0});
+  for (const Vec3 f : forces_of(springs, one_point)) EXPECT_EQ(norm(f), 0.0);
+
+  const auto first = make_fibers({make_config(3, 7, 0.3, 0.7)});
+  auto position = deform(first, 0.1, 15);
+  position[9] = position[4];
+  const auto force = forces_of(SpringForces(first), position);
+  Elastic reference{std::vector<LongVec>(position.size()), 0};
+  add_reference(first[0].config, 0, position, reference);
+  for (const int node : {4, 9}) {
+    EXPECT_NEAR(force[node].x, static_cast<double>(reference.force[node].x), 1e-13);
+    EXPECT_NEAR(force[node].z, static_cast<double>(reference.force[node].z), 1e-13);
+  }
+}
+
+TEST(SpringForce, NaNIsNotHidden) {
+  const auto fibers = make_fibers({make_config(9, 7, 0.3, 0.7)});
+  auto position = make_surface_nodes(fibers);
+  position[30].y = NAN;
+  const auto force = forces_of(SpringForces(fibers), position);
+  EXPECT_TRUE(std::isnan(force[30].y));
+  EXPECT_TRUE(std::isnan(force[31].y));
+  EXPECT_FALSE(std::isnan(force[0].y));
+}
+
+TEST(SpringForce, NetworksMayReachFartherAndSkewed) {
+  // Between sections s and s + 2 one helical spring per node: (s, a) to (s + 2, a + 2), of rest length 0.9.
+  for (const int n : {5, 66}) {
+    const auto fibers = make_fibers({make_config(12, n, 0.3, 0.7)});
+    SpringNetwork network = make_spring_network(fibers[0]);
+    network.stencil.reach = 2;
+    network.stencil.stiffness.assign(3 * n, 0.0);
+    network.stencil.rest_length.resize(3 * n, 0.9);
+    network.stencil.stiffness[network.stencil.entry(2, 2)] = 1.3;
+    const auto position = deform(fibers, 0.2, 16);
+    const auto force = forces_of(SpringForces(std::vector<SpringNetwork>{network}), position);
+
+    EXPECT_EQ(count_springs(network), 10 * n);
+    std::vector<Vec3> expected(12 * n);
+    for (int i = 0; i < 10 * n; ++i) {
+      const int j = i + 2 * n - i % n + (i + 2) % n;
+      const Vec3 d = position[i] - position[j];
+      const Vec3 pull = -1.3 * (norm(d) / 0.9 - 1.0) / norm(d) * d;
+      expected[i] = expected[i] + pull;
+      expected[j] = expected[j] - pull;
+    }
+    for (int i = 0; i < 12 * n; ++i) EXPECT_LT(norm(force[i] - expected[i]), 1e-14) << i;
+  }
+}
+
+TEST(SpringForce, RefusesArraysOfAnotherLength) {
+  const SpringForces springs(make_fibers({make_config(3, 7, 0.3, 0.7)}));
+  EXPECT_THROW(springs.compute_forces(Vectors("position", 20), Vectors("force", 20)), Error);
+  EXPECT_THROW(springs.compute_forces(Vectors("position", 21), Vectors("force", 20)), Error);
+  EXPECT_THROW(springs.compute_energies(Vectors("position", 20)), Error);
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,46 @@
+"""Curvature against arclength and time."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import style
+from run_reader import Nothing
+
+MAX_FIBERS = 4
+MAX_FRAMES = 1200  # more than a panel has rows of pixels
+
+
+def cell_edges(centres):
+    """[n + 1] edges of cells about [n] centres."""
+    middle = 0.5 * (centres[1:] + centres[:-1])
+    return np.concatenate(([centres[0]], middle, [centres[-1]]))
+
+
+def draw(run, options):
+    if len(run.frame_times) < 2:
+        raise Nothing("the run holds one frame only")
+    shown = min(run.n_fibers, MAX_FIBERS)
+    stride = -(-len(run.frame_times) // MAX_FRAMES)
+    times = run.frame_times[::stride]
+    values = run.dataset("/observables/curvature/value")
+    lengths = run.lengths
+    curvatures = [values[: len(run.frame_times) : stride, run.fiber_sections(f)] for f in range(shown)]
+    finite = np.concatenate([c[np.isfinite(c)] for c in curvatures])
+    highest = finite.max() if finite.size and finite.max() > 0.0 else 1.0
+
+    figure, panels = plt.subplots(1, shown, sharey=True, squeeze=False, layout="constrained",
+                                  figsize=(4.2 if shown == 1 else style.WIDTH, 5.2))
+    for fiber, (panel, curvature) in enumerate(zip(panels[0], curvatures)):
+        # Sections divide the length evenly.
+        arclength = np.linspace(0.0, lengths[fiber], curvature.shape[1] + 1)
+        image = panel.pcolormesh(arclength, cell_edges(times), curvature, cmap="inferno", vmin=0.0, vmax=highest,
+                                 rasterized=True)
+        panel.set_facecolor(style.FAINT)  # shows through where a value is not finite
+        panel.set_xlabel("arclength ($L_0$)")
+        panel.xaxis.set_major_locator(plt.MaxNLocator(5 if shown == 1 else 3))
+        if run.n_fibers > 1:
+            panel.set_title(f"fiber {fiber}" + (f" of {run.n_fibers}" if shown < run.n_fibers else ""))
+    panels[0, 0].set_ylabel(style.TIME_LABEL)
+    figure.colorbar(image, ax=panels[0], label="curvature ($1/L_0$)", fraction=0.08, pad=0.03)
+    figure.suptitle(style.describe_fibers(run, 55 if shown == 1 else 95), fontsize=9)
+    return figure

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Draws a run: shapes, end-to-end angle, curvature, energy. The paths of the pictures go to stdout, notes to stderr."""
+
+import argparse
+import os
+import sys
+
+sys.dont_write_bytecode = True  # the sources, or the installed program, are no place for caches
+
+try:
+    import angle
+    import energy
+    import kymograph
+    import shapes
+    import style
+    from run_reader import DAMAGED, Nothing, PlotError, Run, write_error
+except ImportError as missing:
+    sys.exit(f"skein plot: {missing}: install python3-matplotlib and python3-h5py")
+
+USAGE, INTERNAL, STOPPED = 64, 70, 75
+PICTURES = {"shapes": shapes, "angle": angle, "curvature": kymograph, "energy": energy}
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        self.exit(USAGE, f"skein plot: {message}\n{self.format_usage()}")
+
+
+def parse_times(text):
+    times = [float(word) for word in text.split(",") if word.strip()]
+    if not all(abs(time) < float("inf") for time in times):
+        raise ValueError(text)
+    return times
+
+
+def parse_arguments():
+    parser = Parser(prog="plot_run.py", description=__doc__, allow_abbrev=False)
+    parser.add_argument("folder", metavar="DIR", help="run folder")
+    parser.add_argument("--times", type=parse_times, metavar="T1,T2,...", help="draw the frames nearest to these times")
+    parser.add_argument("-o", "--output", metavar="FOLDER", help="folder for the pictures (default: DIR/plots)")
+    parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
+    options = parser.parse_args()
+    options.output = options.output or os.path.join(options.folder, "plots")
+    options.notes = []
+    return options
+
+
+def say(text):
+    print(f"skein plot: {text}", file=sys.stderr)
+
+
+def draw_all(options):
+    run = Run(options.folder)
+    try:
+        os.makedirs(options.output, exist_ok=True)
+    except OSError as error:
+        raise write_error(options.output, error) from None
+    for name, picture in PICTURES.items():
+        try:
+            figure = picture.draw(run, options)
+        except Nothing as reason:
+            say(f"{name} is not drawn: {reason}")
+            continue
+        except OSError as error:
+            raise PlotError(DAMAGED, f"{run.path} cannot be read: {error}") from None
+        for note in options.notes:
+            say(note)
+        options.notes.clear()
+        print(style.save(figure, options.output, name, options.format), flush=True)
+
+
+def main():
+    options = parse_arguments()
+    try:
+        draw_all(options)
+    except PlotError as error:
+        say(error)
+        return error.code
+    except KeyboardInterrupt:
+        say("interrupted")
+        return STOPPED
+    except Exception as error:  # a bug: one line for the user; SKEIN_DEBUG=1 shows where
+        if os.environ.get("SKEIN_DEBUG"):
+            raise
+        say(f"internal error: {type(error).__name__}: {error}")
+        return INTERNAL
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
