@@ -33,10 +33,28 @@ constexpr Row harmonic_rows[] = {
     {16, 1e-14, 5e-11, 1000, 300},
 };
 
+/// Strengths of Stokeslets, S_0 or S_eps. Without the cutoffs blobs are amplified by the small singular values of these
+/// operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the order.
+constexpr Row stokeslet_rows[] = {
+    {4, 1e-4, 5e-3, 150, 64},  {5, 1e-5, 1e-3, 220, 80},   {6, 1e-6, 2e-4, 300, 100},  {7, 1e-7, 4e-5, 400, 140},
+    {8, 1e-8, 1e-5, 500, 180}, {9, 1e-9, 2e-6, 600, 220},  {10, 1e-9, 1e-6, 700, 250}, {11, 1e-10, 2e-7, 900, 300},
+    {12, 1e-10, 1e-7, 1000, 300},
+};
+
+/// Error between the nearest well-separated boxes over (eps / half-width)^4.
+double floor_factor(const FmmOptions& options) {
+  if (options.far_field == FarField::regularized) return 0.05;
+  if (options.far_field == FarField::stokeslet && !options.stokes_part_only) return 0.1;
+  return 0.011;
+}
+
 /// What single precision adds, and the smallest singular values it can tell from noise.
 constexpr double single_error = 9e-7, single_cutoff = 1e-8;
 
-Rows rows_of(const FarField /*far_field*/) { return harmonic_rows; }
+Rows rows_of(const FarField far_field) {
+  if (far_field == FarField::harmonic) return harmonic_rows;
+  return stokeslet_rows;
+}
 
 /// The best that a far field promises.
 double least_error(const FmmOptions& options) {
@@ -49,7 +67,7 @@ double least_error(const FmmOptions& options) {
 
 /// Half-width below which blobs spoil the far field, length.
 double needed_half_width(const FmmOptions& options, const double blob) {
-  return blob * std::pow(harmonic_floor(1.0, 1.0) / options.tolerance, 0.25);
+  return blob * std::pow(floor_factor(options) / options.tolerance, 0.25);
 }
 
 }  // namespace
@@ -109,7 +127,7 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                 fmt::format("min_half_width = {:g}: leaves this small miss tolerance = {:g} with blobs of {:g} (error floor "
                             "{:g}): use {:.4g} or more, or 0",
                             options.min_half_width, options.tolerance, max_blob,
-                            harmonic_floor(max_blob, options.min_half_width), needed));
+                            floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
   return plan;
 }
 

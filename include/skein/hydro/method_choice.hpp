@@ -7,8 +7,8 @@ namespace skein {
 /// How distant boxes see the blobs.
 enum class FarField {
   harmonic,     ///< four harmonic potentials with the eps^2 doublet: error floor 0.011 (eps / half-width)^4
-  stokeslet,    ///< strengths of singular Stokeslets, matched to the field of the blobs
-  regularized,  ///< S_eps in every operator; one common eps
+  stokeslet,    ///< strengths of singular Stokeslets, matched to the field of the blobs: floor 0.1 (eps / half-width)^4
+  regularized,  ///< S_eps in every operator, one common eps: floor 0.05 (eps / half-width)^4
 };
 
 enum class FmmPrecision { automatic, in_double, in_single };
@@ -22,7 +22,7 @@ enum class OnMiss {
 struct FmmOptions {
   double tolerance = 1e-4;             ///< relative error of all velocities together (2-norm)
   FarField far_field = FarField::harmonic;
-  int order = 0;                       ///< p, points per edge of the surfaces, 4 .. 16
+  int order = 0;                       ///< p, points per edge of the surfaces, 4 .. 16 (harmonic), 4 .. 12
   int leaf_size = 0;                   ///< nodes per leaf aimed at
   double min_half_width = 0.0;         ///< of a leaf, length; checked against the floor law
   FmmPrecision precision = FmmPrecision::automatic;
