@@ -10,6 +10,11 @@ endif()
 if(SKEIN_NATIVE)
   target_compile_options(skein_compiler_options INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang>:-march=native>)
 endif()
+if("CUDA" IN_LIST Kokkos_DEVICES)
+  # fmt 9 takes nvcc for a compiler without constexpr; the pair formulas are constexpr so that device code may call them.
+  target_compile_definitions(skein_compiler_options INTERFACE FMT_USE_CONSTEXPR=1)
+  target_compile_options(skein_compiler_options INTERFACE --expt-relaxed-constexpr)
+endif()
 if(SKEIN_SANITIZE)
   target_compile_options(skein_compiler_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
                                                           -fno-omit-frame-pointer)

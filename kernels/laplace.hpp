@@ -42,7 +42,7 @@ struct HarmonicField {
   HarmonicField at(double /*half_width*/) const { return *this; }
 
   template <class Lanes, class Real>
-  KOKKOS_FORCEINLINE_FUNCTION void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
+  SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
                                               Lanes (&potential)[n_planes]) const {
     const Lanes dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
@@ -58,7 +58,7 @@ struct HarmonicField {
 
   /// u += q / r + s grad(1 / r), s = q_psi - x . q, of the densities at the equivalent point y.
   template <class Lanes, class Real>
-  KOKKOS_FORCEINLINE_FUNCTION void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
+  SKEIN_FORMULA void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
                                                const Real (&q)[n_planes], Lanes (&u)[3]) const {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
@@ -79,7 +79,7 @@ struct StokesletField {
   StokesletField at(double /*half_width*/) const { return *this; }
 
   template <class Lanes, class Real>
-  KOKKOS_FORCEINLINE_FUNCTION void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
+  SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
                                               Lanes (&potential)[n_planes]) const {
     const Lanes dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
     if (!stokes_part_only) {
@@ -100,7 +100,7 @@ struct StokesletField {
   }
 
   template <class Lanes, class Real>
-  KOKKOS_FORCEINLINE_FUNCTION void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
+  SKEIN_FORMULA void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
                                                const Real (&q)[n_planes], Lanes (&u)[3]) const {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
@@ -120,7 +120,7 @@ struct RegularizedField {
   RegularizedField at(const double half_width) const { return {blob_squared / (half_width * half_width)}; }
 
   template <class Lanes, class Real>
-  KOKKOS_FORCEINLINE_FUNCTION void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
+  SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
                                               Lanes (&potential)[n_planes]) const {
     const Lanes dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
     const auto weight = regularized_stokeslet::weights(dx, dy, dz, source.blob_squared);
@@ -129,7 +129,7 @@ struct RegularizedField {
   }
 
   template <class Lanes, class Real>
-  KOKKOS_FORCEINLINE_FUNCTION void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
+  SKEIN_FORMULA void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
                                                const Real (&q)[n_planes], Lanes (&u)[3]) const {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const auto weight = regularized_stokeslet::weights(dx, dy, dz, static_cast<Real>(blob_squared));

@@ -44,7 +44,7 @@ struct Weights {
 
 /// Lanes is a number, or a CPU vector with one target in each lane; BlobSquared may be a number for all lanes.
 template <class Lanes, class BlobSquared>
-KOKKOS_FORCEINLINE_FUNCTION Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes dz,
+SKEIN_FORMULA Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes dz,
                                                    const BlobSquared blob_squared) {
   const Lanes core_squared = dx * dx + (dy * dy + (dz * dz + blob_squared));
   const Lanes along = math::inverse_sqrt_cubed(core_squared);
@@ -53,7 +53,7 @@ KOKKOS_FORCEINLINE_FUNCTION Weights<Lanes> weights(const Lanes dx, const Lanes d
 
 /// u += 8 pi viscosity times the velocity due to the force f.
 template <class Lanes, class Force>
-KOKKOS_FORCEINLINE_FUNCTION void add(const Weights<Lanes> weight, const Lanes dx, const Lanes dy, const Lanes dz,
+SKEIN_FORMULA void add(const Weights<Lanes> weight, const Lanes dx, const Lanes dy, const Lanes dz,
                                      const Force fx, const Force fy, const Force fz, Lanes& ux, Lanes& uy, Lanes& uz) {
   const Lanes along = weight.along * (fx * dx + fy * dy + fz * dz);
   ux += weight.isotropic * fx + along * dx;

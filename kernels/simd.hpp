@@ -84,7 +84,8 @@ inline Pack<float> estimate_inverse_sqrt(const Pack<float> x) {
 #endif
 }
 
-/// x^(-3/2) to within 4 units of the last place, x > 0: the series of (1 - e)^(-3/2) about the estimate y, where e = 1 - x y^2.
+/// x^(-3/2) to within 4 units of the last place, x > 0: the series of (1 - e)^(-3/2) about the estimate y, where
+/// e = 1 - x y^2.
 inline Pack<double> inverse_sqrt_cubed(const Pack<double> x) {
   const Pack<double> y = estimate_inverse_sqrt(x);
   const Pack<double> y2 = y * y;

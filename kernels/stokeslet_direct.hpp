@@ -4,8 +4,8 @@
 
 namespace skein {
 
-/// Arithmetic of one pair. Single: differences keep double accuracy, sums are double beyond a tile; the result is good to
-/// about 1e-6.
+/// Arithmetic of one pair. Single: differences keep double accuracy, sums are double beyond a tile; the result is good
+/// to about 1e-6.
 enum class PairPrecision { in_double, in_single };
 
 /// velocity += sum over sources of the regularized Stokeslet; blobs belong to the sources.
@@ -29,13 +29,12 @@ void add_stokeslet_velocity_by_teams(const Space& space, const ConstVectorView<S
                                      const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
                                      double viscosity, PairPrecision precision, int team_size);
 
-/// The general sum where every source is a target and all blobs are equal, on the host: S_eps is symmetric then, and each pair
-/// is weighed once for both of its nodes. perf/bench_direct compares it with the general sum.
+/// The general sum where every source is a target and all blobs are equal, on the host: S_eps is symmetric then, and
+/// each pair is weighed once for both of its nodes. perf/bench_direct compares it with the general sum.
 /// @param blob  [n_nodes], all equal (not checked); at least min_symmetric_nodes nodes.
 void add_symmetric_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,
                                       const ConstVectorView<HostSpace>& force, const ConstScalarView<HostSpace>& blob,
-                                      const VectorView<HostSpace>& velocity, double viscosity,
-                                      PairPrecision precision);
+                                      const VectorView<HostSpace>& velocity, double viscosity, PairPrecision precision);
 
 /// Below this many nodes the symmetric sum has too few tiles to keep threads busy.
 inline constexpr int min_symmetric_nodes = 256;

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, configures and builds one preset: tools/build.sh [openmp|serial|sanitize|cuda|hip] [options for cmake]
+# With SKEIN_SETUP_OPTIONS in the environment, tools/setup.sh is given those too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -17,7 +18,7 @@ case $preset in
     ;;
 esac
 
-prefix=$(tools/setup.sh --backend "$backend" --print-kokkos)
+prefix=$(tools/setup.sh --backend "$backend" ${SKEIN_SETUP_OPTIONS:+$SKEIN_SETUP_OPTIONS} --print-kokkos)
 export SKEIN_KOKKOS_PREFIX=$prefix
 unset Kokkos_ROOT Kokkos_DIR # they would win over the prefix
 

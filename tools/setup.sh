@@ -8,12 +8,14 @@ packages=(
   # libraries
   libeigen3-dev libhdf5-dev libopenmpi-dev libcli11-dev libtomlplusplus-dev libfmt-dev libspdlog-dev libxxhash-dev
   # tests and benchmarks
-  libgtest-dev librapidcheck-dev libbenchmark-dev strace
+  libgtest-dev librapidcheck-dev libbenchmark-dev
   # plots, and checks of the files written
-  python3 python3-h5py python3-matplotlib python3-numpy python3-scipy python3-vtk9
+  python3 python3-h5py python3-matplotlib python3-numpy
   # the way to Kokkos' source
   dpkg-dev xz-utils
 )
+# What only running the tests needs; ParaView brings VTK with its XDMF readers, which python3-vtk9 lacks.
+test_packages=(python3-paraview strace)
 movie_packages=(ffmpeg)
 
 usage() {
@@ -26,6 +28,7 @@ built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler.
 
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
+  --with-tests     also install what only running the tests needs (ParaView, strace)
   --with-movies    also install ffmpeg, which only `skein movie` needs
   --print-kokkos   print nothing but Kokkos' prefix on stdout; messages go to stderr
   --help           this text
@@ -262,6 +265,7 @@ while (($#)); do
       ;;
     --backend=*) backend=${1#*=} ;;
     --serial) backend=serial ;;
+    --with-tests) packages+=("${test_packages[@]}") ;;
     --with-movies) packages+=("${movie_packages[@]}") ;;
     --print-kokkos) only_prefix=true ;;
     -h | --help) usage && exit ;;

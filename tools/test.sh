@@ -21,7 +21,7 @@ while (($#)); do
   shift
 done
 
-tools/build.sh "$preset" -DSKEIN_BUILD_TESTS=ON
+SKEIN_SETUP_OPTIONS=--with-tests tools/build.sh "$preset" -DSKEIN_BUILD_TESTS=ON
 
 # The last thing that runs: its closing lines are the verdict.
 exec ctest --preset "$preset" "${arguments[@]}"

@@ -66,8 +66,8 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
                        {"bending_rigidity", {rigidity, "force*length^2"}},
                        {"viscosity", {scene.fluid.viscosity, "force*time/length^2"}},
                        {"shear_rate", {scene.flow.rate, "1/time"}},
-                       {"elasto_viscous_number_log_4e_over_rho2", {number, ""}},
-                       {"elasto_viscous_number_minus_log_rho2_e", {number_slender, ""}}};
+                       {"elasto_viscous_number_log_4e_over_rho2", {number, "1"}},
+                       {"elasto_viscous_number_minus_log_rho2_e", {number_slender, "1"}}};
   return layout;
 }
 

@@ -84,6 +84,16 @@ void visit_output(KeyVisitor& visitor, OutputConfig& output) {
   visitor.end_table();
 }
 
+void visit_checkpoint(KeyVisitor& visitor, CheckpointConfig& checkpoint) {
+  visitor.begin_table({"checkpoint", false, "From what `skein resume` goes on; one is made at the end of a run, too."});
+  visitor.number({"wall_interval", "seconds of wall time", zero_or_more(), "a checkpoint so often; 0: not by the clock"},
+                 checkpoint.wall_interval);
+  visitor.number({"simulated_interval", "time", zero_or_more(), "a checkpoint so often; 0: not by simulated time"},
+                 checkpoint.simulated_interval);
+  visitor.integer({"keep", "", between(1, 1e6), "how many are kept, the newest"}, checkpoint.keep);
+  visitor.end_table();
+}
+
 }  // namespace
 
 void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
@@ -96,6 +106,7 @@ void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
   visit_hydrodynamics(visitor, scene.hydrodynamics);
   visit_time(visitor, scene.time);
   visit_output(visitor, scene.output);
+  visit_checkpoint(visitor, scene.checkpoint);
   visitor.end_table();
 }
 

@@ -13,8 +13,15 @@ PairPrecision pair_precision(const Precision precision) {
   return precision == Precision::in_double ? PairPrecision::in_double : PairPrecision::in_single;
 }
 
-bool all_equal(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [&](const double value) { return value == values.front(); });
+/// True where each pair can be weighed once for both of its nodes: nodes that are sources and targets, with equal
+/// blobs. Looked up at every call: n comparisons beside n^2 pairs, and nothing to go stale when the caller changes an
+/// array.
+[[maybe_unused]] bool is_symmetric(const Sources& sources, const ConstVectors& target) {
+  if (target.data() != sources.position.data() || target.extent(0) != sources.position.extent(0) ||
+      target.extent_int(0) < min_symmetric_nodes)
+    return false;
+  const double* blob = sources.blob.data();
+  return std::all_of(blob, blob + sources.blob.extent(0), [=](const double value) { return value == *blob; });
 }
 
 }  // namespace
@@ -22,17 +29,6 @@ bool all_equal(const std::vector<double>& values) {
 DirectMobility::DirectMobility(const double viscosity, const Precision precision)
     : viscosity_(viscosity), precision_(precision) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
-}
-
-bool DirectMobility::is_symmetric(const Sources& sources, const ConstVectors& target) {
-  if (!on_host<ExecSpace> || target.data() != sources.position.data() ||
-      target.extent_int(0) != sources.position.extent_int(0) || target.extent_int(0) < min_symmetric_nodes)
-    return false;
-  if (checked_blobs_.data() != sources.blob.data() || checked_blobs_.extent(0) != sources.blob.extent(0)) {
-    checked_blobs_ = sources.blob;  // a counted reference: the same address cannot come to mean another array
-    equal_blobs_ = all_equal(to_host(sources.blob));
-  }
-  return equal_blobs_;
 }
 
 void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {

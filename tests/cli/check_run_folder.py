@@ -171,13 +171,15 @@ def compare_with_vtk(seen, index, reader):
 
 
 def main():
-    check(len(sys.argv) == 2, "usage: check_run_folder.py DIR")
+    require_vtk = sys.argv[2:] == ["--require-vtk"]
+    check(len(sys.argv) == 2 or require_vtk, "usage: check_run_folder.py DIR [--require-vtk]")
     folder = pathlib.Path(sys.argv[1])
     with h5py.File(folder / "trajectory.h5", "r") as index:
         n_frames = check_index(index)
         check_surface(index)
         check_xdmf_text(folder, index)
         readers = [version for version in (2, 3) if check_through_vtk(folder, index, version)]
+    check(readers or not require_vtk, "no XDMF reader of VTK was found; tools/setup.sh --with-tests installs one")
     check(not list(folder.rglob("*.partial")), "a half-written file was left")
     seen_by = ", ".join(f"VTK's XDMF {version} reader" for version in readers) or "no XDMF reader of VTK on this machine"
     print(f"{folder}: {n_frames} frames, seen alike by h5py and {seen_by}")

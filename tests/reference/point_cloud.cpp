@@ -34,10 +34,14 @@ Vec3 Random::direction() {
 
 std::string name_of(const Cloud cloud) {
   switch (cloud) {
-    case Cloud::cube: return "cube";
-    case Cloud::tube: return "tube";
-    case Cloud::line: return "line";
-    case Cloud::cluster: return "cluster";
+    case Cloud::cube:
+      return "cube";
+    case Cloud::tube:
+      return "tube";
+    case Cloud::line:
+      return "line";
+    case Cloud::cluster:
+      return "cluster";
   }
   return "unknown";
 }

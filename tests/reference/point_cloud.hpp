@@ -27,8 +27,8 @@ enum class Cloud { cube, tube, line, cluster };
 inline constexpr Cloud all_clouds[] = {Cloud::cube, Cloud::tube, Cloud::line, Cloud::cluster};
 std::string name_of(Cloud cloud);
 
-/// Points within about `size` of `center`: anywhere in a cube; on a thin tube bent into a helix, in the order along it as
-/// in a fiber; anywhere on a straight line; in five dense clusters, in no order.
+/// Points within about `size` of `center`: anywhere in a cube; on a thin tube bent into a helix, in the order along it
+/// as in a fiber; anywhere on a straight line; in five dense clusters, in no order.
 std::vector<Vec3> make_cloud(Cloud cloud, int n_points, Vec3 center, double size, Random& random);
 
 /// Vectors with components in [-size, size).

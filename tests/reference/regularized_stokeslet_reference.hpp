@@ -10,7 +10,7 @@ namespace skein::reference {
 struct PointForces {
   std::vector<Vec3> position;  ///< length
   std::vector<Vec3> force;
-  std::vector<double> blob;    ///< regularization length, > 0
+  std::vector<double> blob;  ///< regularization length, > 0
 };
 
 /// Velocity at the targets, summed pair by pair in long double by the textbook formula. @returns [n_targets]

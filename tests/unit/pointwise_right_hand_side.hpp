@@ -15,7 +15,9 @@ class PointwiseRightHandSide final : public RightHandSide {
  public:
   using Velocity = std::function<Vec3(double time, int node, Vec3 x)>;
 
-  explicit PointwiseRightHandSide(Velocity velocity) : velocity_(std::move(velocity)) {}
+  /// @param range  positions farther out than this are at fault
+  explicit PointwiseRightHandSide(Velocity velocity, const double range = 1e100)
+      : velocity_(std::move(velocity)), range_(range) {}
 
   void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
     ++evaluations_;
@@ -27,7 +29,7 @@ class PointwiseRightHandSide final : public RightHandSide {
   std::string find_fault(const ConstVectors& position) const override {
     const std::vector<Vec3> list = to_host(position);
     for (std::size_t i = 0; i < list.size(); ++i)
-      if (!(dot(list[i], list[i]) < 1e200)) return "node " + std::to_string(i) + " is not finite";
+      if (!(norm(list[i]) < range_)) return "node " + std::to_string(i) + " is out of range";
     return {};
   }
 
@@ -35,6 +37,7 @@ class PointwiseRightHandSide final : public RightHandSide {
 
  private:
   Velocity velocity_;
+  double range_;
   std::int64_t evaluations_ = 0;
 };
 

@@ -54,8 +54,7 @@ TEST(Combine, FiveTerms) {
     combine<ExecSpace>(ExecSpace(), result, {0.3, on_device(a)}, {-1.7, on_device(b)}, {2.1, on_device(c)},
                        {0.05, on_device(d)}, {-0.9, on_device(e)});
     std::vector<Vec3> expected;
-    for (int i = 0; i < n; ++i)
-      expected.push_back(0.3 * a[i] + -1.7 * b[i] + 2.1 * c[i] + 0.05 * d[i] + -0.9 * e[i]);
+    for (int i = 0; i < n; ++i) expected.push_back(0.3 * a[i] + -1.7 * b[i] + 2.1 * c[i] + 0.05 * d[i] + -0.9 * e[i]);
     expect_near(to_host(result), expected);
   }
 }

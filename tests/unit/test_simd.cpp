@@ -14,7 +14,8 @@ class PackTest : public ::testing::Test {};
 using Reals = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(PackTest, Reals);
 
-/// Largest |relative error| of inverse_sqrt_cubed over numbers of [10^low, 10^high), in units of the last place (epsilon).
+/// Largest |relative error| of inverse_sqrt_cubed over numbers of [10^low, 10^high), in units of the last place
+/// (epsilon).
 template <class Real>
 double largest_error(const double low, const double high) {
   constexpr int width = simd::width<Real>;

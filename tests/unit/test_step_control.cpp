@@ -69,7 +69,8 @@ TEST(StepControl, ContinuesFromItsMemory) {
   control.after_accepted(0.2, 0.3);
   control.after_rejected(0.25, 3.0);
   restored.restore(control.memory());
-  for (const double error : {0.4, 0.2, 0.7, 0.01}) EXPECT_EQ(restored.after_accepted(0.2, error), control.after_accepted(0.2, error));
+  for (const double error : {0.4, 0.2, 0.7, 0.01})
+    EXPECT_EQ(restored.after_accepted(0.2, error), control.after_accepted(0.2, error));
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ class StokesletSum : public ::testing::TestWithParam<Row> {
   }
   /// Error of the velocities at the sources themselves, relative to the largest.
   double error_at_sources(const reference::PointForces& from) const {
-    return reference::relative_error(compute(from, from.position), reference::compute_stokeslet_velocity(
-                                                                       from, from.position, test_viscosity));
+    return reference::relative_error(compute(from, from.position),
+                                     reference::compute_stokeslet_velocity(from, from.position, test_viscosity));
   }
 };
 
@@ -99,7 +99,8 @@ TEST_P(StokesletSum, AgreesForFibersFarApart) {
 
 TEST_P(StokesletSum, AgreesForCoincidentNodes) {
   reference::PointForces coincident = sources(Cloud::cube, 400);
-  for (std::size_t i = 0; i + 5 < coincident.position.size(); i += 3) coincident.position[i + 5] = coincident.position[i];
+  for (std::size_t i = 0; i + 5 < coincident.position.size(); i += 3)
+    coincident.position[i + 5] = coincident.position[i];
   EXPECT_LT(error_at_sources(coincident), GetParam().tolerance);
   coincident.position.assign(coincident.position.size(), Vec3{0.3, -0.1, 2.0});
   EXPECT_LT(error_at_sources(coincident), GetParam().tolerance);
@@ -119,7 +120,8 @@ TEST_P(StokesletSum, ForceThatIsNotANumberReachesEveryVelocity) {
   for (const int bad : {0, 70, 299}) {
     reference::PointForces from = sources(Cloud::tube, 300);
     from.force[bad].y = std::numeric_limits<double>::quiet_NaN();
-    for (const Vec3 u : compute(from, from.position)) ASSERT_TRUE(std::isnan(u.x) && std::isnan(u.y) && std::isnan(u.z));
+    for (const Vec3 u : compute(from, from.position))
+      ASSERT_TRUE(std::isnan(u.x) && std::isnan(u.y) && std::isnan(u.z));
   }
 }
 
@@ -127,7 +129,8 @@ TEST_P(StokesletSum, PositionThatIsNotANumberReachesEveryVelocity) {
   for (const int bad : {0, 70, 299}) {
     reference::PointForces from = sources(Cloud::tube, 300);
     from.position[bad].z = std::numeric_limits<double>::quiet_NaN();
-    for (const Vec3 u : compute(from, from.position)) ASSERT_TRUE(std::isnan(u.x) && std::isnan(u.y) && std::isnan(u.z));
+    for (const Vec3 u : compute(from, from.position))
+      ASSERT_TRUE(std::isnan(u.x) && std::isnan(u.y) && std::isnan(u.z));
   }
 }
 
@@ -164,8 +167,8 @@ TEST_P(SumAtTargets, AgreesWithTheReferenceForOtherTargets) {
     for (const int n_targets : {1, 5, 63, 64, 65, 130, 500}) {
       const reference::PointForces from = sources(Cloud::cube, n_sources);
       const auto target = reference::make_cloud(Cloud::tube, n_targets, {0.1, 0.0, 0.2}, 0.5, random);
-      EXPECT_LT(reference::relative_error(compute(from, target), reference::compute_stokeslet_velocity(
-                                                                     from, target, test_viscosity)),
+      EXPECT_LT(reference::relative_error(compute(from, target),
+                                          reference::compute_stokeslet_velocity(from, target, test_viscosity)),
                 GetParam().tolerance)
           << n_sources << " sources, " << n_targets << " targets";
     }

@@ -18,7 +18,8 @@ std::vector<Vec3> compute_columns(const Vec3 target, const double blob) {
   std::vector<Vec3> column;
   for (const Vec3 force : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}})
     column.push_back(
-        compute_velocity(Sum::general, PairPrecision::in_double, {{{0.0, 0.0, 0.0}}, {force}, {blob}}, {target}).front());
+        compute_velocity(Sum::general, PairPrecision::in_double, {{{0.0, 0.0, 0.0}}, {force}, {blob}}, {target})
+            .front());
   return column;
 }
 

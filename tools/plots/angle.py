@@ -82,6 +82,7 @@ def draw(run, options):
     step = 45.0 if turned <= 225.0 else 90.0 * max(1, round(turned / 90.0 / 6.0))
     if turned > 60.0:
         top.set_yticks(np.arange(step * np.floor(lowest / step), highest + 0.5 * step, step))
+    top.margins(y=0.12)  # room for the words beside the highest mark
     top.set_ylabel("end-to-end angle in $x$-$y$\n(degrees clockwise from $+x$)")
     bottom.set_ylabel("end-to-end distance\n/ centreline length")
     low, high = bottom.get_ylim()

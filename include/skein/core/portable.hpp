@@ -16,6 +16,10 @@
 #define SKEIN_ON_DEVICE 0
 #endif
 
+/// A formula that device kernels and CPU vector types share. constexpr rather than __host__ __device__: nvcc then compiles
+/// it for the device only where device code calls it, and so never for CPU vectors, which it refuses there.
+#define SKEIN_FORMULA [[gnu::always_inline]] constexpr inline
+
 namespace skein::math {
 
 /// sqrt of the argument's own precision: an unqualified sqrt(float) may be the double one.

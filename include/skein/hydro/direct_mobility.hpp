@@ -18,14 +18,9 @@ class DirectMobility final : public Mobility {
   std::string describe() const override;
 
  private:
-  /// True where each pair can be weighed once for both of its nodes.
-  bool is_symmetric(const Sources& sources, const ConstVectors& target);
-
   double viscosity_;
   Precision precision_;
   double pairs_ = 0.0;
-  ConstScalars checked_blobs_;  ///< the array that was last searched for unequal blobs, and what was found
-  bool equal_blobs_ = false;
 };
 
 }  // namespace skein
