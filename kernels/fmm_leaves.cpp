@@ -184,20 +184,19 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
       for (int i = 0; i < task.targets.count; ++i)
         velocity(tree.target_order()(task.targets.first + i), c) += sum.velocity[c][i];
   };
-  Kokkos::parallel_for("skein::add_leaf_velocities",
-                       Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(HostSpace(), 0,
-                                                                                         static_cast<int>(tasks.size())),
-                       add);
+  Kokkos::parallel_for(
+      "skein::add_leaf_velocities",
+      Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(HostSpace(), 0, static_cast<int>(tasks.size())),
+      add);
 }
 
-#define SKEIN_INSTANTIATE(Near, Real, Field)                                                                          \
-  template void add_leaf_velocities<Near, Real, Field>(const Octree&, const SortedNodes&, const Field&,              \
-                                                       const std::vector<const OperatorSet<Real>*>&,                 \
-                                                       const Coefficients<Real>&, const std::vector<TargetTask>&,     \
-                                                       const HostVectors&);
-#define SKEIN_INSTANTIATE_FIELD(Field)      \
-  SKEIN_INSTANTIATE(double, double, Field)  \
-  SKEIN_INSTANTIATE(double, float, Field)   \
+#define SKEIN_INSTANTIATE(Near, Real, Field)                                                         \
+  template void add_leaf_velocities<Near, Real, Field>(                                              \
+      const Octree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
+      const Coefficients<Real>&, const std::vector<TargetTask>&, const HostVectors&);
+#define SKEIN_INSTANTIATE_FIELD(Field)     \
+  SKEIN_INSTANTIATE(double, double, Field) \
+  SKEIN_INSTANTIATE(double, float, Field)  \
   SKEIN_INSTANTIATE(float, float, Field)
 SKEIN_INSTANTIATE_FIELD(HarmonicField)
 SKEIN_INSTANTIATE_FIELD(StokesletField)

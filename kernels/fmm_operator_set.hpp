@@ -29,10 +29,10 @@ inline constexpr int n_transfers = 64;
 /// The matrices of the kernel-independent method for one kind of far field, in units of a box's half-width.
 ///
 /// With K = U S V^T from the inner surface's densities to the outer surface's potentials, a box keeps c = S^(-1/2) U^T
-/// (potential on its outer surface), cut to the `rank` largest singular values: the two factors of the pseudo-inverse are
-/// never multiplied with each other, and small singular values share their weight between the two sides. A target box
-/// keeps c = S^(-1/2) V^T (potential on its inner surface). K, U, S, V split by the eight parities under reflections of
-/// the axes, so that a reflection only changes the signs of coefficients.
+/// (potential on its outer surface), cut to the `rank` largest singular values: the two factors of the pseudo-inverse
+/// are never multiplied with each other, and small singular values share their weight between the two sides. A target
+/// box keeps c = S^(-1/2) V^T (potential on its inner surface). K, U, S, V split by the eight parities under
+/// reflections of the axes, so that a reflection only changes the signs of coefficients.
 template <class Real>
 struct OperatorSet {
   int n_surface = 0;  ///< points of a surface
@@ -46,7 +46,7 @@ struct OperatorSet {
   PaddedMatrix<Real> target_density;  ///< coefficients for targets -> densities on the outer surface
   PaddedMatrix<Real> to_parent;       ///< from the child at the upper side of all axes (its own operator set's rank)
   PaddedMatrix<Real> to_child;        ///< to that child
-  PaddedMatrix<Real> transfer[n_transfers];      ///< built when first met
+  PaddedMatrix<Real> transfer[n_transfers];                     ///< built when first met
   Kokkos::View<Real* [8], Kokkos::LayoutLeft, HostSpace> sign;  ///< [rank_padded, reflected axes], +1 or -1
 };
 

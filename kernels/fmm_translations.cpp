@@ -68,18 +68,16 @@ void add_run_potentials(const SortedNodes& nodes, const Run run, const Vec3 cent
   }
 }
 
-/// Sources of leaves to their coefficients (P2M).
+/// Sources of leaves to their coefficients (P2M); zero for other boxes.
 template <class Real, class Field>
 void compute_leaf_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
                                const std::vector<const OperatorSet<Real>*>& levels,
-                               const Coefficients<Real>& coefficients) {
-  const int first = tree.level(math::smaller(first_far_level, tree.n_levels() - 1)).first;
-  const int n_boxes = static_cast<int>(tree.boxes().size());
-  Kokkos::parallel_for("skein::compute_leaf_coefficients", Tasks(HostSpace(), first, n_boxes), [&](const int b) {
+                               const Coefficients<Real>& coefficients, const Run boxes) {
+  for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
     const Box& box = box_of(tree, b);
     Real* const own = coefficients.source.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
     std::fill(own, own + coefficients.box_size, Real(0));
-    if (!box.is_leaf() || box.sources.count == 0) return;
+    if (!box.is_leaf() || box.sources.count == 0) continue;
     const auto& operators = operators_of(levels, box.level);
     const int n_values = Field::n_planes * operators.n_padded;
     const HostScratch<Real> potential(n_values);
@@ -89,7 +87,7 @@ void compute_leaf_coefficients(const Octree& tree, const SortedNodes& nodes, con
                        potential.get());
     operators.to_source.apply(potential.get(), operators.to_source.n_columns, Field::n_columns, own,
                               coefficients.stride);
-  });
+  }
 }
 
 /// column <- from with the signs of a reflection; the fourth column of the harmonic field (psi, measured from the box's
@@ -124,7 +122,9 @@ template <class Real, class Field>
 class PairBatch {
  public:
   PairBatch(const int depth, const int n_rows)
-      : stride_(padded<Real>(depth)), out_stride_(n_rows), in_(stride_ * columns_at_once),
+      : stride_(padded<Real>(depth)),
+        out_stride_(n_rows),
+        in_(stride_ * columns_at_once),
         out_(out_stride_ * columns_at_once) {}
 
   static constexpr int capacity = columns_at_once / Field::n_columns;
@@ -155,38 +155,82 @@ class PairBatch {
   int n_pairs_ = 0;
 };
 
-/// Children to parents, level by level upwards (M2M).
+/// The branches of a tree: everything below (and with) one box of a level that has a few for every thread. A branch's
+/// boxes of each level stand together, and branches do not meet, so that one parallel loop over branches does all their
+/// levels; the few boxes above are left to one thread. Which level it is changes no result.
+struct Branches {
+  explicit Branches(const Octree& tree) : level(first_far_level) {
+    const int wanted = 8 * HostSpace().concurrency();
+    for (int l = first_far_level; l < tree.n_levels() && tree.level(level).count < wanted; ++l)
+      if (tree.level(l).count > tree.level(level).count) level = l;
+    roots = tree.level(level);
+  }
+  /// The boxes of a branch, level by level.
+  static std::vector<Run> boxes_of(const Octree& tree, const int root) {
+    std::vector<Run> runs = {{root, 1}};
+    while (true) {
+      Run below;
+      for (int b = runs.back().first; b < runs.back().first + runs.back().count; ++b) {
+        const Box& box = box_of(tree, b);
+        if (box.is_leaf()) continue;
+        if (below.count == 0) below.first = box.first_child;
+        below.count += box.n_children;
+      }
+      if (below.count == 0) return runs;
+      runs.push_back(below);
+    }
+  }
+
+  int level;
+  Run roots;
+};
+
+/// Children to parents of one level (M2M).
 template <class Real, class Field>
 void pass_up(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
-             const Coefficients<Real>& coefficients) {
-  constexpr int boxes_per_task = 8;
-  for (int level = tree.n_levels() - 2; level >= first_far_level; --level) {
-    const Run parents = tree.level(level);
-    const auto& own = operators_of(levels, level);
-    const auto& below = operators_of(levels, level + 1);
-    const auto task = [&](const int t) {
-      PairBatch<Real, Field> batch(below.rank_padded, own.rank_padded);
-      const int last = math::smaller(parents.first + parents.count, parents.first + (t + 1) * boxes_per_task);
-      for (int p = parents.first + t * boxes_per_task; p < last; ++p) {
-        const Box& parent = box_of(tree, p);
-        for (int i = 0; i < parent.n_children; ++i) {
-          const int child = parent.first_child + i;
-          const Box& box = box_of(tree, child);
-          if (box.sources.count == 0) continue;
-          // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
-          const Real shift[3] = {box.octant & 1 ? Real(0.5) : Real(-0.5), box.octant & 2 ? Real(0.5) : Real(-0.5),
-                                 box.octant & 4 ? Real(0.5) : Real(-0.5)};
-          const int reflected = 7 & ~box.octant;
-          batch.add(coefficients.source.data() + static_cast<std::ptrdiff_t>(child) * coefficients.box_size,
-                    coefficients.stride, below.rank_padded, &below.sign(0, reflected), Real(0.5), shift,
-                    coefficients.source.data() + static_cast<std::ptrdiff_t>(p) * coefficients.box_size,
-                    &own.sign(0, reflected));
-          if (batch.is_full()) batch.apply(own.to_parent, coefficients.stride);
-        }
-      }
-      batch.apply(own.to_parent, coefficients.stride);
-    };
-    Kokkos::parallel_for("skein::pass_up", Tasks(HostSpace(), 0, math::ceil_div(parents.count, boxes_per_task)), task);
+             const Coefficients<Real>& coefficients, const int level, const Run parents) {
+  if (level + 1 >= tree.n_levels()) return;
+  const auto& own = operators_of(levels, level);
+  const auto& below = operators_of(levels, level + 1);
+  PairBatch<Real, Field> batch(below.rank_padded, own.rank_padded);
+  for (int p = parents.first; p < parents.first + parents.count; ++p) {
+    const Box& parent = box_of(tree, p);
+    for (int i = 0; i < parent.n_children; ++i) {
+      const int child = parent.first_child + i;
+      const Box& box = box_of(tree, child);
+      if (box.sources.count == 0) continue;
+      // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
+      const Real shift[3] = {box.octant & 1 ? Real(0.5) : Real(-0.5), box.octant & 2 ? Real(0.5) : Real(-0.5),
+                             box.octant & 4 ? Real(0.5) : Real(-0.5)};
+      const int reflected = 7 & ~box.octant;
+      batch.add(coefficients.source.data() + static_cast<std::ptrdiff_t>(child) * coefficients.box_size,
+                coefficients.stride, below.rank_padded, &below.sign(0, reflected), Real(0.5), shift,
+                coefficients.source.data() + static_cast<std::ptrdiff_t>(p) * coefficients.box_size,
+                &own.sign(0, reflected));
+      if (batch.is_full()) batch.apply(own.to_parent, coefficients.stride);
+    }
+  }
+  batch.apply(own.to_parent, coefficients.stride);
+}
+
+/// P2M and M2M of all boxes.
+template <class Real, class Field>
+void compute_source_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+                                 const std::vector<const OperatorSet<Real>*>& levels,
+                                 const Coefficients<Real>& coefficients) {
+  const Branches branches(tree);
+  Kokkos::parallel_for("skein::compute_source_coefficients", Tasks(HostSpace(), 0, branches.roots.count),
+                       [&](const int k) {
+                         const std::vector<Run> runs = Branches::boxes_of(tree, branches.roots.first + k);
+                         for (int depth = static_cast<int>(runs.size()) - 1; depth >= 0; --depth) {
+                           const Run boxes = runs[static_cast<std::size_t>(depth)];
+                           compute_leaf_coefficients<Real, Field>(tree, nodes, field, levels, coefficients, boxes);
+                           pass_up<Real, Field>(tree, levels, coefficients, branches.level + depth, boxes);
+                         }
+                       });
+  for (int level = branches.level - 1; level >= first_far_level; --level) {
+    compute_leaf_coefficients<Real, Field>(tree, nodes, field, levels, coefficients, tree.level(level));
+    pass_up<Real, Field>(tree, levels, coefficients, level, tree.level(level));
   }
 }
 
@@ -198,8 +242,10 @@ std::vector<Run> make_transfer_tasks(const Octree& tree) {
     const Run boxes = tree.level(level);
     Run task{boxes.first, 0};
     int n_pairs = 0;
-    const int enough = math::larger(min_pairs, (tree.far_pairs().first[static_cast<std::size_t>(boxes.first + boxes.count)] -
-                                                tree.far_pairs().first[static_cast<std::size_t>(boxes.first)]) / 16);
+    const int enough =
+        math::larger(min_pairs, (tree.far_pairs().first[static_cast<std::size_t>(boxes.first + boxes.count)] -
+                                 tree.far_pairs().first[static_cast<std::size_t>(boxes.first)]) /
+                                    16);
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
       ++task.count;
       n_pairs += tree.far_pairs().size(b);
@@ -270,52 +316,55 @@ void pass_across(const Octree& tree, const SortedNodes& nodes, const Field& fiel
   Kokkos::parallel_for("skein::pass_across", Tasks(HostSpace(), 0, static_cast<int>(tasks.size())), across);
 }
 
-/// Parents to children, level by level downwards (L2L).
+/// Parents to children of one level (L2L).
 template <class Real, class Field>
 void pass_down(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
-               const Coefficients<Real>& coefficients) {
-  constexpr int boxes_per_task = columns_at_once / 4;
-  for (int level = first_far_level + 1; level < tree.n_levels(); ++level) {
-    const Run boxes = tree.level(level);
-    const auto& own = operators_of(levels, level);
-    const auto& above = operators_of(levels, level - 1);
-    const auto task = [&](const int t) {
-      PairBatch<Real, Field> batch(above.rank_padded, own.rank_padded);
-      const int last = math::smaller(boxes.first + boxes.count, boxes.first + (t + 1) * boxes_per_task);
-      for (int b = boxes.first + t * boxes_per_task; b < last; ++b) {
-        const Box& box = box_of(tree, b);
-        if (box.targets.count == 0) continue;
-        const Real shift[3] = {box.octant & 1 ? Real(-1) : Real(1), box.octant & 2 ? Real(-1) : Real(1),
-                               box.octant & 4 ? Real(-1) : Real(1)};
-        const int reflected = 7 & ~box.octant;
-        batch.add(coefficients.target.data() + static_cast<std::ptrdiff_t>(box.parent) * coefficients.box_size,
-                  coefficients.stride, above.rank_padded, &above.sign(0, reflected), Real(2), shift,
-                  coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size,
-                  &own.sign(0, reflected));
-        if (batch.is_full()) batch.apply(above.to_child, coefficients.stride);
-      }
-      batch.apply(above.to_child, coefficients.stride);
-    };
-    Kokkos::parallel_for("skein::pass_down", Tasks(HostSpace(), 0, math::ceil_div(boxes.count, boxes_per_task)), task);
+               const Coefficients<Real>& coefficients, const int level, const Run boxes) {
+  const auto& own = operators_of(levels, level);
+  const auto& above = operators_of(levels, level - 1);
+  PairBatch<Real, Field> batch(above.rank_padded, own.rank_padded);
+  for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
+    const Box& box = box_of(tree, b);
+    if (box.targets.count == 0) continue;
+    const Real shift[3] = {box.octant & 1 ? Real(-1) : Real(1), box.octant & 2 ? Real(-1) : Real(1),
+                           box.octant & 4 ? Real(-1) : Real(1)};
+    const int reflected = 7 & ~box.octant;
+    batch.add(coefficients.target.data() + static_cast<std::ptrdiff_t>(box.parent) * coefficients.box_size,
+              coefficients.stride, above.rank_padded, &above.sign(0, reflected), Real(2), shift,
+              coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size,
+              &own.sign(0, reflected));
+    if (batch.is_full()) batch.apply(above.to_child, coefficients.stride);
   }
+  batch.apply(above.to_child, coefficients.stride);
+}
+
+template <class Real, class Field>
+void pass_down_all(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+                   const Coefficients<Real>& coefficients) {
+  const Branches branches(tree);
+  for (int level = first_far_level + 1; level <= branches.level; ++level)
+    pass_down<Real, Field>(tree, levels, coefficients, level, tree.level(level));
+  Kokkos::parallel_for("skein::pass_down", Tasks(HostSpace(), 0, branches.roots.count), [&](const int k) {
+    const std::vector<Run> runs = Branches::boxes_of(tree, branches.roots.first + k);
+    for (int depth = 1; depth < static_cast<int>(runs.size()); ++depth)
+      pass_down<Real, Field>(tree, levels, coefficients, branches.level + depth, runs[static_cast<std::size_t>(depth)]);
+  });
 }
 
 }  // namespace
 
 template <class Real, class Field>
 void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
-                          const std::vector<const OperatorSet<Real>*>& levels,
-                          const Coefficients<Real>& coefficients) {
+                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
   if (tree.n_levels() <= first_far_level) return;
-  compute_leaf_coefficients<Real, Field>(tree, nodes, field, levels, coefficients);
-  pass_up<Real, Field>(tree, levels, coefficients);
+  compute_source_coefficients<Real, Field>(tree, nodes, field, levels, coefficients);
   pass_across<Real, Field>(tree, nodes, field, levels, coefficients);
-  pass_down<Real, Field>(tree, levels, coefficients);
+  pass_down_all<Real, Field>(tree, levels, coefficients);
 }
 
-#define SKEIN_INSTANTIATE(Real, Field)                                                                             \
-  template void compute_coefficients<Real, Field>(const Octree&, const SortedNodes&, const Field&,                \
-                                                  const std::vector<const OperatorSet<Real>*>&,                   \
+#define SKEIN_INSTANTIATE(Real, Field)                                                             \
+  template void compute_coefficients<Real, Field>(const Octree&, const SortedNodes&, const Field&, \
+                                                  const std::vector<const OperatorSet<Real>*>&,    \
                                                   const Coefficients<Real>&);
 SKEIN_INSTANTIATE(double, HarmonicField)
 SKEIN_INSTANTIATE(float, HarmonicField)

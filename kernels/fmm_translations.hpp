@@ -12,12 +12,12 @@ namespace skein {
 struct SortedNodes {
   HostVectors position, force;  ///< [n_sources, 3]; forces carry the scale 1 / (8 pi viscosity)
   HostScalars blob;
-  HostVectors target;           ///< [n_targets, 3]
+  HostVectors target;  ///< [n_targets, 3]
 };
 
 /// Targets of one leaf, or some of them where it has many: one task of the near field.
 struct TargetTask {
-  int leaf = 0;       ///< index in Octree::target_leaves
+  int leaf = 0;  ///< index in Octree::target_leaves
   Run targets;
 };
 
@@ -37,13 +37,12 @@ struct Coefficients {
   int box_size = 0;  ///< n_columns * stride
 };
 
-/// The passes over the boxes: from the sources up, across, and down to leaf coefficients. Sums have a fixed order, every
-/// box's sum belongs to one task.
+/// The passes over the boxes: from the sources up, across, and down to leaf coefficients. Sums have a fixed order,
+/// every box's sum belongs to one task.
 /// @param levels  the operators of each level of the tree
 template <class Real, class Field>
 void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
-                          const std::vector<const OperatorSet<Real>*>& levels,
-                          const Coefficients<Real>& coefficients);
+                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients);
 
 /// velocity(original index) += near field + far field of the coefficients, leaf by leaf.
 template <class Near, class Real, class Field>

@@ -43,11 +43,10 @@ struct HarmonicField {
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
-                                              Lanes (&potential)[n_planes]) const {
+                                Lanes (&potential)[n_planes]) const {
     const Lanes dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
-    const Real y_dot_f =
-        source.y[0] * source.force[0] + source.y[1] * source.force[1] + source.y[2] * source.force[2];
+    const Real y_dot_f = source.y[0] * source.force[0] + source.y[1] * source.force[1] + source.y[2] * source.force[2];
     const Lanes f_dot_d = source.force[0] * dx + source.force[1] * dy + source.force[2] * dz;
     const Real half_blob_squared = Real(0.5) * source.blob_squared;
     potential[0] += source.force[0] * inverse;
@@ -59,7 +58,7 @@ struct HarmonicField {
   /// u += q / r + s grad(1 / r), s = q_psi - x . q, of the densities at the equivalent point y.
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
-                                               const Real (&q)[n_planes], Lanes (&u)[3]) const {
+                                 const Real (&q)[n_planes], Lanes (&u)[3]) const {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
     const Lanes s = (x * q[0] + (y * q[1] + z * q[2]) - q[3]) * inverse * inverse * inverse;
@@ -80,7 +79,7 @@ struct StokesletField {
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
-                                              Lanes (&potential)[n_planes]) const {
+                                Lanes (&potential)[n_planes]) const {
     const Lanes dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
     if (!stokes_part_only) {
       const auto weight = regularized_stokeslet::weights(dx, dy, dz, source.blob_squared);
@@ -101,7 +100,7 @@ struct StokesletField {
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
-                                               const Real (&q)[n_planes], Lanes (&u)[3]) const {
+                                 const Real (&q)[n_planes], Lanes (&u)[3]) const {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
     const Lanes along = (q[0] * dx + q[1] * dy + q[2] * dz) * inverse * inverse * inverse;
@@ -121,7 +120,7 @@ struct RegularizedField {
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
-                                              Lanes (&potential)[n_planes]) const {
+                                Lanes (&potential)[n_planes]) const {
     const Lanes dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
     const auto weight = regularized_stokeslet::weights(dx, dy, dz, source.blob_squared);
     regularized_stokeslet::add(weight, dx, dy, dz, source.force[0], source.force[1], source.force[2], potential[0],
@@ -130,7 +129,7 @@ struct RegularizedField {
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_density(const Lanes x, const Lanes y, const Lanes z, const Real (&point)[3],
-                                               const Real (&q)[n_planes], Lanes (&u)[3]) const {
+                                 const Real (&q)[n_planes], Lanes (&u)[3]) const {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const auto weight = regularized_stokeslet::weights(dx, dy, dz, static_cast<Real>(blob_squared));
     regularized_stokeslet::add(weight, dx, dy, dz, q[0], q[1], q[2], u[0], u[1], u[2]);

@@ -11,8 +11,8 @@ namespace product {
 /// C = A B for `row_packs` packs of rows and n_columns columns, all in registers. Every entry is one chain of fused
 /// operations in the order of k, whatever block it falls into: a column's result does not depend on its neighbours.
 template <int row_packs, int n_columns, class Real>
-inline void multiply_block(const Real* a, const int a_stride, const int depth, const Real* b, const int b_stride, Real* c,
-                           const int c_stride) {
+inline void multiply_block(const Real* a, const int a_stride, const int depth, const Real* b, const int b_stride,
+                           Real* c, const int c_stride) {
   using simd::Pack;
   Pack<Real> sum[n_columns][row_packs] = {};
   for (int k = 0; k < depth; ++k) {

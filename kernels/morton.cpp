@@ -8,7 +8,7 @@ namespace {
 
 constexpr int digit_bits = 11;
 constexpr int n_digits = 1 << digit_bits;
-constexpr int min_chunk = 8192;
+constexpr int min_chunk = 32768;
 constexpr int max_chunks = 16;
 
 /// One stable pass by one digit: chunks count their digits, a scan over (digit, chunk) gives each chunk its places.

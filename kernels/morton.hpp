@@ -6,8 +6,8 @@
 
 namespace skein {
 
-/// Morton keys: the cell coordinates of a node, their bits taken in turn. Nodes sorted by key are sorted by boxes of every
-/// level at once. Three times max_key_depth bits must fit a word.
+/// Morton keys: the cell coordinates of a node, their bits taken in turn. Nodes sorted by key are sorted by boxes of
+/// every level at once. Three times max_key_depth bits must fit a word.
 inline constexpr int max_key_depth = 20;
 
 /// Spreads the low 21 bits of x to every third bit.

@@ -121,7 +121,8 @@ double Octree::bytes() const {
   const auto of_list = [](const auto& list) {
     return static_cast<double>(list.entries.capacity() * sizeof(list.entries[0]) + list.first.capacity() * sizeof(int));
   };
-  const double n_nodes = static_cast<double>(source_order_.size()) + (same_nodes_ ? 0.0 : static_cast<double>(target_order_.size())) +
+  const double n_nodes = static_cast<double>(source_order_.size()) +
+                         (same_nodes_ ? 0.0 : static_cast<double>(target_order_.size())) +
                          static_cast<double>(spare_order_.size());
   return 12.0 * n_nodes + static_cast<double>(boxes_.capacity() * sizeof(Box)) + of_list(touching_) + of_list(near_) +
          of_list(fine_) + of_list(coarse_) + of_list(coarse_direct_) + of_list(far_);
@@ -231,11 +232,10 @@ void Octree::split_boxes(const int leaf_size) {
   // First place in [run.first, run.first + run.count) whose key belongs to an octant above `octant`.
   const auto upper = [](const Kokkos::View<std::uint64_t*, HostSpace>& key, const int first, const int last,
                         const int shift, const std::uint64_t octant) {
-    return static_cast<int>(std::upper_bound(key.data() + first, key.data() + last, octant,
-                                             [=](const std::uint64_t o, const std::uint64_t k) {
-                                               return o < (k >> shift & 7);
-                                             }) -
-                            key.data());
+    return static_cast<int>(
+        std::upper_bound(key.data() + first, key.data() + last, octant,
+                         [=](const std::uint64_t o, const std::uint64_t k) { return o < (k >> shift & 7); }) -
+        key.data());
   };
   for (int level = 0; level < max_depth_; ++level) {
     const int shift = 3 * (max_depth_ - level - 1);
@@ -251,8 +251,7 @@ void Octree::split_boxes(const int leaf_size) {
       for (int octant = 0; octant < 8; ++octant) {
         const auto bits = static_cast<std::uint64_t>(octant);
         const int next_source = upper(source_key_, source, last_source, shift, bits);
-        const int next_target =
-            same_nodes_ ? next_source : upper(target_key_, target, last_target, shift, bits);
+        const int next_target = same_nodes_ ? next_source : upper(target_key_, target, last_target, shift, bits);
         if (next_source > source || next_target > target) {
           Box child;
           child.level = level + 1;

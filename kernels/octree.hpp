@@ -14,10 +14,10 @@ struct Box {
   int level = 0;
   int parent = -1;
   int first_child = 0;
-  int n_children = 0;         ///< 0: a leaf
-  int octant = 0;             ///< in the parent: bit c is set on the upper side of axis c
-  int cell[3] = {};           ///< position in the grid of its level
-  Run sources, targets;       ///< in the order of the tree
+  int n_children = 0;    ///< 0: a leaf
+  int octant = 0;        ///< in the parent: bit c is set on the upper side of axis c
+  int cell[3] = {};      ///< position in the grid of its level
+  Run sources, targets;  ///< in the order of the tree
   bool is_leaf() const { return n_children == 0; }
 };
 
@@ -53,8 +53,8 @@ struct ListOfLists {
 
 /// What shapes a tree.
 struct OctreeRules {
-  int leaf_size = 64;             ///< nodes per leaf to aim at, >= 1; in clouds up to twice as many
-  double min_half_width = 0.0;    ///< no leaf is smaller, length
+  int leaf_size = 64;                 ///< nodes per leaf to aim at, >= 1; in clouds up to twice as many
+  double min_half_width = 0.0;        ///< no leaf is smaller, length
   int min_sources_for_expansion = 0;  ///< fewer sources (or targets) than this are summed directly across W and X lists
 };
 
@@ -66,7 +66,8 @@ struct OctreeRules {
 class Octree {
  public:
   /// @param source, target  [n, 3], length; the same array where the sources are the targets
-  void build(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target, const OctreeRules& rules);
+  void build(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target,
+             const OctreeRules& rules);
 
   const std::vector<Box>& boxes() const { return boxes_; }
   int n_levels() const { return static_cast<int>(level_first_.size()) - 1; }
@@ -85,11 +86,11 @@ class Octree {
   const Kokkos::View<int*, HostSpace>& source_order() const { return source_order_; }
   const Kokkos::View<int*, HostSpace>& target_order() const { return target_order_; }
 
-  const std::vector<int>& target_leaves() const { return target_leaves_; }    ///< leaves with targets
-  const ListOfLists<Run>& near_sources() const { return near_; }              ///< U, per target leaf: runs of sources
-  const ListOfLists<int>& fine_sources() const { return fine_; }              ///< W, per target leaf: boxes
-  const ListOfLists<FarPair>& far_pairs() const { return far_; }              ///< V, per box
-  const ListOfLists<int>& coarse_sources() const { return coarse_; }          ///< X, per box: leaves
+  const std::vector<int>& target_leaves() const { return target_leaves_; }  ///< leaves with targets
+  const ListOfLists<Run>& near_sources() const { return near_; }            ///< U, per target leaf: runs of sources
+  const ListOfLists<int>& fine_sources() const { return fine_; }            ///< W, per target leaf: boxes
+  const ListOfLists<FarPair>& far_pairs() const { return far_; }            ///< V, per box
+  const ListOfLists<int>& coarse_sources() const { return coarse_; }        ///< X, per box: leaves
   /// Bit i is set where far pairs with transfer_index i exist.
   std::uint64_t transfers_met() const { return transfers_met_; }
 

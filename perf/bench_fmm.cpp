@@ -1,6 +1,7 @@
-// The fast multipole method against this project's direct sum in the same run: error against order, speed against error,
-// crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree and its
-// lists count. Usage: bench_fmm [pair] [speed] [crossover] [uniform] [setup] [chart] [tiny]   (threads: OMP_NUM_THREADS)
+// The fast multipole method against this project's direct sum in the same run: error against order, speed against
+// error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
+// and its lists count. Usage: bench_fmm [pair] [speed] [crossover] [uniform] [setup] [chart] [tiny]   (threads:
+// OMP_NUM_THREADS)
 
 #include <skein/core/runtime.hpp>
 #include <skein/hydro/direct_mobility.hpp>
@@ -65,8 +66,11 @@ std::vector<Vec3> make_uniform(const int n_nodes) {
 
 struct Case {
   Case(const std::vector<Vec3>& nodes, const double blob_size)
-      : n(static_cast<int>(nodes.size())), position(to_device("position", nodes)), force("force", nodes.size()),
-        velocity("velocity", nodes.size()), blob(to_device("blob", std::vector<double>(nodes.size(), blob_size))) {
+      : n(static_cast<int>(nodes.size())),
+        position(to_device("position", nodes)),
+        force("force", nodes.size()),
+        velocity("velocity", nodes.size()),
+        blob(to_device("blob", std::vector<double>(nodes.size(), blob_size))) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     std::vector<Vec3> forces(nodes.size());
@@ -78,9 +82,10 @@ struct Case {
   /// A little, and not all alike.
   void move_nodes() {
     const Vectors x = position;
-    Kokkos::parallel_for("bench::move_nodes", Kokkos::RangePolicy<ExecSpace>(0, n), KOKKOS_LAMBDA(const int i) {
-      for (int c = 0; c < 3; ++c) x(i, c) += 1e-7 * ((i * (c + 2)) % 7 - 3);
-    });
+    Kokkos::parallel_for(
+        "bench::move_nodes", Kokkos::RangePolicy<ExecSpace>(0, n), KOKKOS_LAMBDA(const int i) {
+          for (int c = 0; c < 3; ++c) x(i, c) += 1e-7 * ((i * (c + 2)) % 7 - 3);
+        });
   }
   void compute(Mobility& mobility) {
     Kokkos::deep_copy(velocity, 0.0);
@@ -170,9 +175,9 @@ void bench_nearest_boxes(const bool tiny) {
     FarField field;
     bool stokes_part_only;
   };
-  for (const Field field : {Field{"harmonic", FarField::harmonic, false}, Field{"stokeslet", FarField::stokeslet, false},
-                            Field{"stokeslet_doublet", FarField::stokeslet, true},
-                            Field{"regularized", FarField::regularized, false}})
+  for (const Field field :
+       {Field{"harmonic", FarField::harmonic, false}, Field{"stokeslet", FarField::stokeslet, false},
+        Field{"stokeslet_doublet", FarField::stokeslet, true}, Field{"regularized", FarField::regularized, false}})
     for (const double ratio : {1e-4, 0.04, 0.1, 0.2, 0.4})
       for (const int p : {4, 6, 8, 10, 12, 14, 16})
         for (const double cutoff : {1e-15, 1e-12, 1e-9, 1e-6}) {
@@ -193,8 +198,9 @@ void bench_nearest_boxes(const bool tiny) {
 void print_outcome(const char* shape, const Case& problem, const double tolerance, const Outcome& outcome) {
   const FmmStatistics& s = outcome.statistics;
   std::printf("%s,%d,%g,%d,%s,%.4f,%.4f,%.1f,%.1e,%.3e,%.0f,%d,%.3g,%.0f,%.0f,%.2f,%.2f,%.2f,%.2f\n", shape, problem.n,
-              tolerance, s.plan.order, s.plan.far_in_single ? s.plan.near_in_single ? "single" : "far_single" : "double",
-              1e3 * outcome.seconds, 1e3 * outcome.direct_seconds, outcome.direct_seconds / outcome.seconds, outcome.error,
+              tolerance, s.plan.order,
+              s.plan.far_in_single ? s.plan.near_in_single ? "single" : "far_single" : "double", 1e3 * outcome.seconds,
+              1e3 * outcome.direct_seconds, outcome.direct_seconds / outcome.seconds, outcome.error,
               problem.n / outcome.seconds, s.memory_bytes / problem.n, s.n_leaves, s.smallest_half_width,
               s.work.near_pairs / problem.n, s.work.far_pairs, 1e3 * s.tree_seconds, 1e3 * s.sort_seconds,
               1e3 * s.far_seconds, 1e3 * s.leaf_seconds);
@@ -249,7 +255,8 @@ void bench_uniform(const bool tiny) {
 /// From nothing to the first velocity, less a second evaluation: what a run pays once.
 void bench_setup(const bool tiny) {
   std::printf("\n# Set-up, once per run\nshape,p,precision,operators_s\n");
-  for (const auto& [shape, nodes] : {std::pair{"straight", make_straight(23634)}, std::pair{"uniform", make_uniform(50000)}})
+  for (const auto& [shape, nodes] :
+       {std::pair{"straight", make_straight(23634)}, std::pair{"uniform", make_uniform(50000)}})
     for (const int p : {6, 8, 10, 12}) {
       if (tiny && p > 6) continue;
       for (const bool in_single : {true, false}) {
@@ -279,12 +286,14 @@ void bench_chart(const bool tiny) {
     DirectMobility direct(viscosity, Precision::in_double), direct_single(viscosity, Precision::in_single);
     const int repeats = n < 10000 ? 9 : n < 50000 ? 3 : 1;
     const auto seconds = perf::median_seconds(
-        repeats, std::vector<std::function<void()>>{[&] { problem.compute(direct); }, [&] { problem.compute(direct_single); }});
+        repeats,
+        std::vector<std::function<void()>>{[&] { problem.compute(direct); }, [&] { problem.compute(direct_single); }});
     problem.compute(direct);
     const auto exact = to_host(problem.velocity);
     problem.compute(direct_single);
     std::printf("straight,%d,direct_double,0,%.4f,1e-15\n", n, 1e3 * seconds[0]);
-    std::printf("straight,%d,direct_single,0,%.4f,%.2e\n", n, 1e3 * seconds[1], relative_error(to_host(problem.velocity), exact));
+    std::printf("straight,%d,direct_single,0,%.4f,%.2e\n", n, 1e3 * seconds[1],
+                relative_error(to_host(problem.velocity), exact));
     for (const FarField field : {FarField::harmonic, FarField::stokeslet, FarField::regularized})
       for (int p = 4; p <= 14; ++p) {
         if (field != FarField::harmonic && (p > 10 || p % 2 == 1)) continue;
@@ -301,7 +310,8 @@ void bench_chart(const bool tiny) {
         if (field != FarField::harmonic) options.min_half_width = fiber_blob * std::pow(0.011 / error, 0.25);
         if (options.min_half_width > 0.6 || fiber_blob * std::pow(0.011 / error, 0.25) > n * spacing / 72) continue;
         FmmMobility fmm(viscosity, options);
-        const auto time = perf::median_seconds(repeats, std::vector<std::function<void()>>{[&] { problem.compute(fmm); }});
+        const auto time =
+            perf::median_seconds(repeats, std::vector<std::function<void()>>{[&] { problem.compute(fmm); }});
         problem.compute(fmm);
         std::printf("straight,%d,%s,%d,%.4f,%.2e\n", n,
                     field == FarField::harmonic    ? "fmm_harmonic"

@@ -61,7 +61,8 @@ HostNodes copy_to_host(const Sources& sources, const ConstVectors& target) {
 }
 
 void resize(HostVectors& array, const int n, const char* label) {
-  if (array.extent_int(0) != n) array = HostVectors(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), n);
+  if (array.extent_int(0) != n)
+    array = HostVectors(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), n);
 }
 
 struct BlobRange {
@@ -88,7 +89,7 @@ class OperatorStore {
     order_ = plan.order;
     cutoff_ = plan.singular_cutoff;
     std::vector<FmmOperators<Real>*> operators;
-    for (int level = 0; level < math::larger(tree.n_levels(), first_far_level + 1); ++level) {
+    for (int level = 0; level < tree.n_levels(); ++level) {
       const double ratio = far_field == FarField::regularized ? blob / tree.half_width(level) : 0.0;
       auto found = kept_.find(ratio);
       if (found == kept_.end()) {
@@ -178,8 +179,8 @@ void FmmMobility::Evaluator::sort_nodes(const HostNodes& nodes, const double sca
 
 template <class Real, class Field>
 void FmmMobility::Evaluator::pass(const FmmPlan& plan, const Field& field,
-                                  const std::vector<const OperatorSet<Real>*>& levels,
-                                  Coefficients<Real>& coefficients, const HostVectors& velocity) {
+                                  const std::vector<const OperatorSet<Real>*>& levels, Coefficients<Real>& coefficients,
+                                  const HostVectors& velocity) {
   Stopwatch watch;
   coefficients.stride = 0;
   for (const auto* level : levels)
@@ -262,9 +263,10 @@ bool FmmMobility::Evaluator::add(const FmmOptions& options, FmmPlan plan, const 
   tasks_ = make_target_tasks(tree_);
   const BlobRange blobs = range_of(nodes.blob);
   if (options.far_field == FarField::regularized && blobs.smallest != blobs.largest)
-    throw Error(ExitCode::scene_error,
-                fmt::format("far_field = \"regularized\" needs one blob for all nodes, not {:g} .. {:g}: use \"harmonic\"",
-                            blobs.smallest, blobs.largest));
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("far_field = \"regularized\" needs one blob for all nodes, not {:g} .. {:g}: use \"harmonic\"",
+                    blobs.smallest, blobs.largest));
   if (options.precision == FmmPrecision::automatic)
     plan.near_in_single &= single_precision_error(blobs.smallest, tree_.largest_leaf()) < options.tolerance;
   count_work(plan);
@@ -283,7 +285,9 @@ bool FmmMobility::Evaluator::add(const FmmOptions& options, FmmPlan plan, const 
 }
 
 FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
-    : viscosity_(viscosity), options_(options), direct_(viscosity, Precision::in_double),
+    : viscosity_(viscosity),
+      options_(options),
+      direct_(viscosity, Precision::in_double),
       evaluator_(std::make_unique<Evaluator>()) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
   if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);
@@ -294,9 +298,9 @@ FmmMobility::~FmmMobility() = default;
 const FmmStatistics& FmmMobility::statistics() const { return evaluator_->statistics; }
 
 void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
-  SKEIN_REQUIRE(sources.position.extent(0) == sources.force.extent(0) &&
-                    sources.position.extent(0) == sources.blob.extent(0),
-                "positions, forces and blobs of the sources differ in number");
+  SKEIN_REQUIRE(
+      sources.position.extent(0) == sources.force.extent(0) && sources.position.extent(0) == sources.blob.extent(0),
+      "positions, forces and blobs of the sources differ in number");
   SKEIN_REQUIRE(target.extent(0) == velocity.extent(0), "targets and velocities differ in number");
   const bool is_checked = options_.check_every > 0 && n_evaluations_ % options_.check_every == 0;
   ++n_evaluations_;
@@ -315,9 +319,10 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
     if (error <= options_.tolerance) break;
     ++statistics.n_misses;
     const int order = statistics.plan.order;
-    const std::string miss = fmt::format("the fast multipole method at order {} misses tolerance = {:g}: its error at {} "
-                                         "checked targets is {:.2g}",
-                                         order, options_.tolerance, options_.n_checked_targets, error);
+    const std::string miss = fmt::format(
+        "the fast multipole method at order {} misses tolerance = {:g}: its error at {} "
+        "checked targets is {:.2g}",
+        order, options_.tolerance, options_.n_checked_targets, error);
     if (options_.on_miss == OnMiss::stop || order >= max_fmm_order)
       throw Error(ExitCode::numerical, miss + "; lower the tolerance or use method = \"direct\"");
     statistics.last_miss = miss;
@@ -325,10 +330,11 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
     Kokkos::deep_copy(own, 0.0);
   }
   const Vectors total = velocity;
-  Kokkos::parallel_for("skein::add_checked_velocity", Kokkos::RangePolicy<ExecSpace>(0, velocity.extent_int(0)),
-                       KOKKOS_LAMBDA(const int i) {
-                         for (int c = 0; c < 3; ++c) total(i, c) += own(i, c);
-                       });
+  Kokkos::parallel_for(
+      "skein::add_checked_velocity", Kokkos::RangePolicy<ExecSpace>(0, velocity.extent_int(0)),
+      KOKKOS_LAMBDA(const int i) {
+        for (int c = 0; c < 3; ++c) total(i, c) += own(i, c);
+      });
 }
 
 bool FmmMobility::add_unchecked(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
@@ -390,9 +396,10 @@ double FmmMobility::measure_error(const Sources& sources, const ConstVectors& ta
 std::string FmmMobility::describe() const {
   const char* const field = options_.far_field == FarField::harmonic    ? "harmonic"
                             : options_.far_field == FarField::stokeslet ? "Stokeslet"
-                                                                         : "regularized";
+                                                                        : "regularized";
   if (options_.direct_when_cheaper && needs_direct_sum(options_))
-    return fmt::format("direct sum: tolerance {:g} is below what the fast multipole method promises", options_.tolerance);
+    return fmt::format("direct sum: tolerance {:g} is below what the fast multipole method promises",
+                       options_.tolerance);
   return fmt::format("fast multipole method, {} far field, order {} for tolerance {:g}{}", field,
                      choose_fmm_plan(options_, 0.0, evaluator_->raised_order).order, options_.tolerance,
                      options_.direct_when_cheaper ? "; direct sum where cheaper" : "");

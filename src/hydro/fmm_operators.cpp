@@ -17,8 +17,8 @@ PaddedMatrix<Real> make_padded(const int n_rows, const int n_columns) {
   PaddedMatrix<Real> result;
   result.n_rows = padded<Real>(n_rows);
   result.n_columns = n_columns;
-  result.entry = Kokkos::View<Real*, HostSpace>("operator", static_cast<std::size_t>(result.n_rows) *
-                                                                static_cast<std::size_t>(n_columns));
+  result.entry = Kokkos::View<Real*, HostSpace>(
+      "operator", static_cast<std::size_t>(result.n_rows) * static_cast<std::size_t>(n_columns));
   return result;
 }
 
@@ -83,8 +83,10 @@ Eigen::MatrixX3d make_surface(const int order) {
 
 template <class Real>
 FmmOperators<Real>::FmmOperators(const FarField far_field, const int order, const double cutoff, const double blob)
-    : far_field_(far_field), blob_(far_field == FarField::regularized ? blob : 0.0),
-      n_components_(far_field == FarField::harmonic ? 1 : 3), surface_(make_surface(order)) {
+    : far_field_(far_field),
+      blob_(far_field == FarField::regularized ? blob : 0.0),
+      n_components_(far_field == FarField::harmonic ? 1 : 3),
+      surface_(make_surface(order)) {
   SKEIN_REQUIRE(order >= 2, "a surface needs two points per edge");
   set_.n_surface = static_cast<int>(surface_.rows());
   set_.n_padded = padded<Real>(set_.n_surface);
@@ -127,13 +129,15 @@ void FmmOperators<Real>::decompose(const double cutoff) {
   const MatrixXd kernel = interaction(outer_surface * surface_, inner_surface * surface_);
   std::vector<MatrixXd> scalar_basis(8);
   std::vector<Factors> factors(8);
-  for (int parity = 0; parity < 8; ++parity) scalar_basis[static_cast<std::size_t>(parity)] = make_parity_basis(surface_, parity);
+  for (int parity = 0; parity < 8; ++parity)
+    scalar_basis[static_cast<std::size_t>(parity)] = make_parity_basis(surface_, parity);
   const int n_components = n_components_;
   Kokkos::parallel_for(
       "skein::decompose_surface_kernel",
       Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(HostSpace(), 0, 8, Kokkos::ChunkSize(1)),
       [&](const int parity) {
-        // A vector field of a parity has components of other parities: its component along a mirrored axis changes sign.
+        // A vector field of a parity has components of other parities: its component along a mirrored axis changes
+        // sign.
         std::vector<const MatrixXd*> parts;
         Eigen::Index n_functions = 0;
         for (int c = 0; c < n_components; ++c) {
@@ -233,8 +237,8 @@ void FmmOperators<Real>::require_passes(const FmmOperators& below) {
 template <class Real>
 double FmmOperators<Real>::bytes() const {
   double n = 0.0;
-  for (const auto* matrix : {&set_.to_source, &set_.to_target, &set_.source_density, &set_.target_density, &set_.to_parent,
-                             &set_.to_child})
+  for (const auto* matrix :
+       {&set_.to_source, &set_.to_target, &set_.source_density, &set_.target_density, &set_.to_parent, &set_.to_child})
     n += static_cast<double>(matrix->entry.size());
   for (const auto& matrix : set_.transfer) n += static_cast<double>(matrix.entry.size());
   return n * sizeof(Real) + 8.0 * static_cast<double>(inner_.size() + outer_.size());

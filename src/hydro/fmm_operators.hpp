@@ -14,8 +14,8 @@ namespace skein {
 /// Points of the surface of the cube |x| = 1 with `order` points per edge: 6 (order - 1)^2 + 2 in all.
 Eigen::MatrixX3d make_surface(int order);
 
-/// The operators of one far field at one ratio of blob to half-width, in double precision, and their copies as Reals for
-/// the passes. Source: Ying, Biros, Zorin (2004) for the surfaces; the factors see OperatorSet.
+/// The operators of one far field at one ratio of blob to half-width, in double precision, and their copies as Reals
+/// for the passes. Source: Ying, Biros, Zorin (2004) for the surfaces; the factors see OperatorSet.
 template <class Real>
 class FmmOperators {
  public:

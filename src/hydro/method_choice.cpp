@@ -14,8 +14,8 @@
 namespace skein {
 namespace {
 
-/// One line of the tables. The errors are the largest of random, aligned and balanced forces on clouds, clusters, lines,
-/// coils, tubes, shells and sheets, with a margin of two or more; ranks are those of the cut-off operators.
+/// One line of the tables. The errors are the largest of random, aligned and balanced forces on clouds, clusters,
+/// lines, coils, tubes, shells and sheets, with a margin of two or more; ranks are those of the cut-off operators.
 struct Row {
   int order;
   double cutoff;
@@ -27,18 +27,19 @@ using Rows = std::span<const Row>;
 
 /// More points than 14 per edge gain nothing: rounding in the operators themselves is met.
 constexpr Row harmonic_rows[] = {
-    {4, 1e-4, 3e-3, 56, 64},      {5, 1e-5, 5e-4, 90, 64},      {6, 1e-6, 6e-5, 121, 80},     {7, 1e-7, 8e-6, 168, 100},
-    {8, 1e-8, 1.5e-6, 200, 140},  {9, 1e-9, 3e-7, 260, 180},    {10, 1e-10, 6e-8, 350, 220},  {11, 1e-10, 1e-8, 380, 220},
-    {12, 1e-11, 9e-10, 480, 250}, {13, 1e-12, 1.5e-10, 600, 300}, {14, 1e-13, 5e-11, 750, 300}, {15, 1e-14, 5e-11, 900, 300},
+    {4, 1e-4, 3e-3, 56, 64},        {5, 1e-5, 5e-4, 90, 64},      {6, 1e-6, 6e-5, 121, 80},
+    {7, 1e-7, 8e-6, 168, 100},      {8, 1e-8, 1.5e-6, 200, 140},  {9, 1e-9, 3e-7, 260, 180},
+    {10, 1e-10, 6e-8, 350, 220},    {11, 1e-10, 1e-8, 380, 220},  {12, 1e-11, 9e-10, 480, 250},
+    {13, 1e-12, 1.5e-10, 600, 300}, {14, 1e-13, 5e-11, 750, 300}, {15, 1e-14, 5e-11, 900, 300},
     {16, 1e-14, 5e-11, 1000, 300},
 };
 
 /// Strengths of Stokeslets, S_0 or S_eps. Without the cutoffs blobs are amplified by the small singular values of these
 /// operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the order.
 constexpr Row stokeslet_rows[] = {
-    {4, 1e-4, 5e-3, 150, 64},  {5, 1e-5, 1e-3, 220, 80},   {6, 1e-6, 2e-4, 300, 100},  {7, 1e-7, 4e-5, 400, 140},
-    {8, 1e-8, 1e-5, 500, 180}, {9, 1e-9, 2e-6, 600, 220},  {10, 1e-9, 1e-6, 700, 250}, {11, 1e-10, 2e-7, 900, 300},
-    {12, 1e-10, 1e-7, 1000, 300},
+    {4, 1e-4, 5e-3, 150, 64},   {5, 1e-5, 1e-3, 220, 80},    {6, 1e-6, 2e-4, 300, 100},
+    {7, 1e-7, 4e-5, 400, 140},  {8, 1e-8, 1e-5, 500, 180},   {9, 1e-9, 2e-6, 600, 220},
+    {10, 1e-9, 1e-6, 700, 250}, {11, 1e-10, 2e-7, 900, 300}, {12, 1e-10, 1e-7, 1000, 300},
 };
 
 /// Error between the nearest well-separated boxes over (eps / half-width)^4.
@@ -59,9 +60,8 @@ Rows rows_of(const FarField far_field) {
 /// The best that a far field promises.
 double least_error(const FmmOptions& options) {
   const Rows rows = rows_of(options.far_field);
-  const double error = std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-                         return a.error < b.error;
-                       })->error;
+  const double error =
+      std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.error < b.error; })->error;
   return options.precision == FmmPrecision::in_single ? std::max(error, single_error) : error;
 }
 
@@ -89,15 +89,17 @@ void check_fmm_options(const FmmOptions& options) {
     refuse(fmt::format("order = {}: must be between {} and {}, or 0 to leave it to the tolerance", options.order,
                        rows.front().order, rows.back().order));
   if (needs_direct_sum(options))
-    refuse(fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
-                       "field and precision: raise it, or use method = \"direct\"",
-                       options.tolerance, least_error(options)));
+    refuse(
+        fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
+                    "field and precision: raise it, or use method = \"direct\"",
+                    options.tolerance, least_error(options)));
   if (options.order != 0) {
     const Row& row = rows[static_cast<std::size_t>(options.order - rows.front().order)];
     if (row.error > options.tolerance)
-      refuse(fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to leave it "
-                         "to the tolerance",
-                         options.order, row.error, options.tolerance));
+      refuse(
+          fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to leave it "
+                      "to the tolerance",
+                      options.order, row.error, options.tolerance));
   }
 }
 
@@ -123,11 +125,12 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
   const double needed = needed_half_width(options, max_blob);
   plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
   if (plan.min_half_width < 0.999 * needed)
-    throw Error(ExitCode::scene_error,
-                fmt::format("min_half_width = {:g}: leaves this small miss tolerance = {:g} with blobs of {:g} (error floor "
-                            "{:g}): use {:.4g} or more, or 0",
-                            options.min_half_width, options.tolerance, max_blob,
-                            floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("min_half_width = {:g}: leaves this small miss tolerance = {:g} with blobs of {:g} (error floor "
+                    "{:g}): use {:.4g} or more, or 0",
+                    options.min_half_width, options.tolerance, max_blob,
+                    floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
   return plan;
 }
 
@@ -139,9 +142,10 @@ double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bo
   const double direct_pair = direct_is_symmetric ? 0.63 : 0.77;
   const double n_surface = 6.0 * (plan.order - 1) * (plan.order - 1) + 2.0;
   const double rank = plan.rank;
-  const double fmm = near_pair * work.near_pairs + surface_pair * n_surface * (work.n_sources + work.n_targets) +
-                     8.0 * product * (rank * rank * (work.far_pairs + 2.0 * work.n_boxes) + 2.0 * rank * n_surface * work.n_boxes) +
-                     40.0 * (work.n_sources + work.n_targets) + 2e4;
+  const double fmm =
+      near_pair * work.near_pairs + surface_pair * n_surface * (work.n_sources + work.n_targets) +
+      8.0 * product * (rank * rank * (work.far_pairs + 2.0 * work.n_boxes) + 2.0 * rank * n_surface * work.n_boxes) +
+      40.0 * (work.n_sources + work.n_targets) + 2e4;
   return fmm / (direct_pair * work.n_sources * work.n_targets);
 }
 

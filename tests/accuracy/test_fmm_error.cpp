@@ -67,8 +67,10 @@ std::vector<Vec3> make_spiral(const int sections) {
   double angle = 2.0 * std::numbers::pi;
   for (int s = 0; s < sections; ++s) {
     const double r = growth * angle;
-    const Vec3 along{growth * std::cos(angle) - r * std::sin(angle), growth * std::sin(angle) + r * std::cos(angle), 0.0};
-    add_section(nodes, {r * std::cos(angle), r * std::sin(angle), 0.0}, Vec3{-along.y, along.x, 0.0} / norm(along), {0, 0, 1});
+    const Vec3 along{growth * std::cos(angle) - r * std::sin(angle), growth * std::sin(angle) + r * std::cos(angle),
+                     0.0};
+    add_section(nodes, {r * std::cos(angle), r * std::sin(angle), 0.0}, Vec3{-along.y, along.x, 0.0} / norm(along),
+                {0, 0, 1});
     angle += spacing / norm(along);
   }
   return nodes;
@@ -112,7 +114,8 @@ double nearest_boxes_error(const int order, const double blob_over_half_width, c
 
 // Measured with another program (backward-stable pseudo-inverse, forces and places of its own): orders of magnitude.
 TEST(FmmError, FallsWithTheOrderAsMeasuredElsewhere) {
-  const std::pair<int, double> measured[] = {{4, 2.0e-3}, {6, 4.9e-5}, {8, 1.4e-6}, {10, 9.8e-8}, {12, 1.8e-9}, {14, 1.0e-10}};
+  const std::pair<int, double> measured[] = {{4, 2.0e-3},  {6, 4.9e-5},  {8, 1.4e-6},
+                                             {10, 9.8e-8}, {12, 1.8e-9}, {14, 1.0e-10}};
   for (const auto& [order, error] : measured) {
     const double got = nearest_boxes_error(order, 1e-4, 1e-15, FarField::harmonic, false);
     EXPECT_LT(got, 3.0 * error) << "order " << order;
@@ -139,7 +142,8 @@ TEST(FmmError, StokesletsAmplifyBlobsUnlessCutOff) {
 TEST(FmmError, StaysWithinTheToleranceOnFibersAndClouds) {
   Random random(8);
   const std::pair<const char*, std::vector<Vec3>> shapes[] = {
-      {"tube", make_tube(200)}, {"spiral", make_spiral(200)},
+      {"tube", make_tube(200)},
+      {"spiral", make_spiral(200)},
       {"cube", reference::make_cloud(Cloud::cube, 4000, {5.0, -2.0, 1.0}, 0.08, random)}};
   for (const auto& [name, nodes] : shapes)
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9}) {
@@ -178,8 +182,9 @@ TEST(FmmError, TargetsMayDifferFromSources) {
   from.force.resize(7);
   from.blob.resize(7);
   EXPECT_LT(compare_with_direct(from, target, options).error, 1e-6) << "few sources, many targets";
-  EXPECT_LT(compare_with_direct(with_forces(make_tube(100), 3e-4, 5), {{0.05, 0.001, 0.0}, {0.3, 0.0, 0.0}}, options).error,
-            1e-6)
+  EXPECT_LT(
+      compare_with_direct(with_forces(make_tube(100), 3e-4, 5), {{0.05, 0.001, 0.0}, {0.3, 0.0, 0.0}}, options).error,
+      1e-6)
       << "many sources, few targets";
 }
 
@@ -204,9 +209,9 @@ TEST(FmmError, DegenerateInputsAreRight) {
   for (int i = 0; i < 900; ++i) line.push_back({0.01 * i, 0.5, -0.25});
   for (int i = 0; i < 900; ++i) twice.push_back({0.01 * (i / 3), 0.3 * ((i / 3) % 7), 0.0});
   for (int i = 0; i < 600; ++i) powers.push_back({std::ldexp(1.0, -(i / 6)), 1.0, std::ldexp(1.0, -(i % 6))});
-  const std::vector<std::vector<Vec3>> inputs = {std::vector<Vec3>(800, {0.1, 0.2, 0.3}), line, twice, powers,
-                                                 {{1.0, 2.0, 3.0}}, {{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}},
-                                                 make_tube(1)};
+  const std::vector<std::vector<Vec3>> inputs = {
+      std::vector<Vec3>(800, {0.1, 0.2, 0.3}), line,        twice, powers, {{1.0, 2.0, 3.0}},
+      {{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}},      make_tube(1)};
   for (std::size_t k = 0; k < inputs.size(); ++k)
     for (const double blob : {1e-12, 1e-5, 3e-3, 10.0})
       for (const double tolerance : {1e-4, 1e-8}) {
@@ -232,7 +237,8 @@ void expect_no_silent_miss(const int n_cases, const std::uint64_t seed) {
       nodes.assign(static_cast<std::size_t>(n), {0.2, 0.1, -0.4});
     else
       nodes = reference::make_cloud(reference::all_clouds[k % 4], n, random.in_cube(2.0), 1.0, random);
-    if (k % 7 == 0) nodes.insert(nodes.end(), nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2));
+    if (k % 7 == 0)
+      nodes.insert(nodes.end(), nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2));
     const double cell = 1.0 / std::cbrt(nodes.size() / 20.0);
     from = with_forces(nodes, cell * random.log_uniform(1e-4, 10.0), random.bits());
     if (k % 3 == 0)
@@ -275,9 +281,15 @@ TEST(FmmOptionsCheck, RefusesWhatCannotBeDelivered) {
   EXPECT_TRUE(refused([](FmmOptions& o) { o.tolerance = 0.0; }));
   EXPECT_TRUE(refused([](FmmOptions& o) { o.tolerance = std::nan(""); }));
   EXPECT_TRUE(refused([](FmmOptions& o) { o.order = 2; }));
-  EXPECT_TRUE(refused([](FmmOptions& o) { o.order = 4; o.tolerance = 1e-6; }));
+  EXPECT_TRUE(refused([](FmmOptions& o) {
+    o.order = 4;
+    o.tolerance = 1e-6;
+  }));
   EXPECT_TRUE(refused([](FmmOptions& o) { o.min_half_width = 0.002; })) << "below the floor law";
-  EXPECT_TRUE(refused([](FmmOptions& o) { o.precision = FmmPrecision::in_single; o.tolerance = 1e-8; }));
+  EXPECT_TRUE(refused([](FmmOptions& o) {
+    o.precision = FmmPrecision::in_single;
+    o.tolerance = 1e-8;
+  }));
   EXPECT_TRUE(refused([](FmmOptions& o) { o.leaf_size = -1; }));
 }
 

@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <cstdio>
 
-// Prints a hash of every velocity's bits, for compare_thread_counts.cmake. The first line says how many threads there were.
+// Prints a hash of every velocity's bits, for compare_thread_counts.cmake. The first line says how many threads there
+// were.
 
 namespace skein {
 namespace {

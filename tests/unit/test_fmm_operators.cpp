@@ -22,8 +22,8 @@ MatrixXd dense(const PaddedMatrix<Real>& matrix, const int n_rows) {
   MatrixXd result(n_rows, matrix.n_columns);
   for (int j = 0; j < matrix.n_columns; ++j)
     for (int i = 0; i < n_rows; ++i)
-      result(i, j) = static_cast<double>(
-          matrix.entry(static_cast<std::size_t>(j) * static_cast<std::size_t>(matrix.n_rows) + static_cast<std::size_t>(i)));
+      result(i, j) = static_cast<double>(matrix.entry(
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(matrix.n_rows) + static_cast<std::size_t>(i)));
   return result;
 }
 
@@ -100,7 +100,8 @@ class HarmonicOperators : public ::testing::TestWithParam<int> {
 
 TEST_P(HarmonicOperators, DensitiesStandForChargesFarAway) {
   const Charges charges = make_charges(30, {0, 0, 0}, 1.0);
-  const VectorXd q = source_density(source_coefficients(potential(outer_surface * surface_, charges.at, charges.strength)));
+  const VectorXd q =
+      source_density(source_coefficients(potential(outer_surface * surface_, charges.at, charges.strength)));
   Eigen::MatrixX3d far(3, 3);
   far << 3.2, 0.1, -0.4, 9.0, 2.0, 1.0, -3.0, -3.0, 3.0;
   const VectorXd expected = potential(far, charges.at, charges.strength);
@@ -111,7 +112,8 @@ TEST_P(HarmonicOperators, TransfersServeTheirMirrorImages) {
   const Charges charges = make_charges(30, {0, 0, 0}, 1.0);
   const VectorXd c = source_coefficients(potential(outer_surface * surface_, charges.at, charges.strength));
   const Charges places = make_charges(20, {0, 0, 0}, 1.0);
-  for (const std::array<signed char, 3> t : {std::array<signed char, 3>{2, 0, 0}, {-2, 1, 0}, {3, -3, -2}, {0, -1, 2}, {-3, -3, -3}}) {
+  for (const std::array<signed char, 3> t :
+       {std::array<signed char, 3>{2, 0, 0}, {-2, 1, 0}, {3, -3, -2}, {0, -1, 2}, {-3, -3, -3}}) {
     const signed char transfer[3] = {t[0], t[1], t[2]};
     VectorXd sign(set().rank);
     for (int i = 0; i < set().rank; ++i) sign(i) = set().sign(i, reflected_axes(transfer));
@@ -122,7 +124,8 @@ TEST_P(HarmonicOperators, TransfersServeTheirMirrorImages) {
     Eigen::MatrixX3d shifted = charges.at.rowwise() + shift;
     const VectorXd expected = potential(places.at, shifted, charges.strength);
     const VectorXd got = potential(places.at, outer_surface * surface_, target_density(local));
-    EXPECT_LT((got - expected).norm(), tolerance() * expected.norm()) << int{t[0]} << ' ' << int{t[1]} << ' ' << int{t[2]};
+    EXPECT_LT((got - expected).norm(), tolerance() * expected.norm())
+        << int{t[0]} << ' ' << int{t[1]} << ' ' << int{t[2]};
   }
 }
 

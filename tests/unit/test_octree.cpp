@@ -49,7 +49,8 @@ std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int 
   return count;
 }
 
-void expect_every_pair_once(const std::vector<Vec3>& source, const std::vector<Vec3>& target, const OctreeRules& rules) {
+void expect_every_pair_once(const std::vector<Vec3>& source, const std::vector<Vec3>& target,
+                            const OctreeRules& rules) {
   const HostVectors sources = make_host_vectors(source), targets = make_host_vectors(target);
   Octree tree;
   tree.build(sources, targets, rules);

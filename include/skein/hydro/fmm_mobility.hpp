@@ -19,7 +19,7 @@ struct FmmStatistics {
   double smallest_half_width = 0.0;  ///< of a leaf, length
   FmmWork work;
   bool used_direct_sum = false;  ///< the lists showed that it costs less, or the tolerance is out of reach
-  double memory_bytes = 0.0;  ///< of the tree, the nodes' copies, coefficients and operators
+  double memory_bytes = 0.0;     ///< of the tree, the nodes' copies, coefficients and operators
   /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves.
   double operators_seconds = 0.0, tree_seconds = 0.0, sort_seconds = 0.0, far_seconds = 0.0, leaf_seconds = 0.0;
   double checked_error = -1.0;  ///< of the last check against direct sums, 2-norm, relative; -1: none yet
@@ -29,9 +29,9 @@ struct FmmStatistics {
 
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
-/// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for the
-/// approximations). The tree is rebuilt in every call, operators are kept. Runs on the host; device arrays are copied.
-/// Source: Ying, Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
+/// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
+/// the approximations). The tree is rebuilt in every call, operators are kept. Runs on the host; device arrays are
+/// copied. Source: Ying, Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2

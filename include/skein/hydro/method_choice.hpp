@@ -20,16 +20,16 @@ enum class OnMiss {
 
 /// What a user may ask of the fast multipole method; 0 leaves a choice to the tables.
 struct FmmOptions {
-  double tolerance = 1e-4;             ///< relative error of all velocities together (2-norm)
+  double tolerance = 1e-4;  ///< relative error of all velocities together (2-norm)
   FarField far_field = FarField::harmonic;
-  int order = 0;                       ///< p, points per edge of the surfaces, 4 .. 16 (harmonic), 4 .. 12
-  int leaf_size = 0;                   ///< nodes per leaf aimed at
-  double min_half_width = 0.0;         ///< of a leaf, length; checked against the floor law
+  int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16 (harmonic), 4 .. 12
+  int leaf_size = 0;            ///< nodes per leaf aimed at
+  double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
   FmmPrecision precision = FmmPrecision::automatic;
-  bool direct_when_cheaper = false;    ///< sum directly where the lists show that this costs less
-  bool stokes_part_only = false;       ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
-  double singular_cutoff = 0.0;        ///< of the surface operators, relative to the largest singular value
-  int check_every = 0;                 ///< evaluations between checks against direct sums; 0: no checks
+  bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
+  bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
+  double singular_cutoff = 0.0;      ///< of the surface operators, relative to the largest singular value
+  int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks
   int n_checked_targets = 64;
   OnMiss on_miss = OnMiss::raise_order;
 };
@@ -59,7 +59,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, double max_blob, int raised_o
 /// True where no plan reaches the tolerance and only direct sums do.
 bool needs_direct_sum(const FmmOptions& options);
 
-/// Error between the nearest well-separated boxes that blobs cause in the harmonic far field: 0.011 (eps / half-width)^4.
+/// Error between the nearest well-separated boxes that blobs cause in the harmonic far field: 0.011 (eps /
+/// half-width)^4.
 double harmonic_floor(double blob, double half_width);
 
 /// Bound of what single precision costs in the near field of leaves of this size.
