@@ -18,7 +18,6 @@ namespace skein {
 namespace {
 
 constexpr double min_fmm_pairs = 5e5;  ///< fewer are summed directly before a tree is built
-constexpr int max_fmm_order = 16;
 
 class Stopwatch {
  public:
@@ -316,15 +315,15 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
     FmmStatistics& statistics = evaluator_->statistics;
     statistics.checked_error = error;
     ++statistics.n_checks;
-    if (error <= options_.tolerance) break;
+    if (!(error > options_.tolerance)) break;  // not a number: the time step finds out and names the node
     ++statistics.n_misses;
     const int order = statistics.plan.order;
     const std::string miss = fmt::format(
-        "the fast multipole method at order {} misses tolerance = {:g}: its error at {} "
-        "checked targets is {:.2g}",
+        "the fast multipole method at order {} misses tolerance = {:g}: its error at {} checked targets is {:.2g}",
         order, options_.tolerance, options_.n_checked_targets, error);
-    if (options_.on_miss == OnMiss::stop || order >= max_fmm_order)
-      throw Error(ExitCode::numerical, miss + "; lower the tolerance or use method = \"direct\"");
+    const bool is_last = choose_fmm_plan(options_, 0.0, order + 1).order <= order;
+    if (options_.on_miss == OnMiss::stop || is_last)
+      throw Error(ExitCode::numerical, miss + "; raise the tolerance or use method = \"direct\"");
     statistics.last_miss = miss;
     evaluator_->raised_order = order + 1;
     Kokkos::deep_copy(own, 0.0);

@@ -114,11 +114,12 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
   plan.order = row->order;
   plan.rank = row->rank;
   plan.far_in_single = options.precision == FmmPrecision::in_single ||
-                       (options.precision == FmmPrecision::automatic && options.tolerance >= single_error);
+                       (options.precision == FmmPrecision::automatic && options.tolerance >= single_error &&
+                        raised_order == 0);  // single precision may have been why
   plan.near_in_single = plan.far_in_single;
-  plan.singular_cutoff = options.singular_cutoff > 0.0 ? options.singular_cutoff
-                         : plan.far_in_single          ? std::max(row->cutoff, single_cutoff)
-                                                       : row->cutoff;
+  plan.singular_cutoff = options.singular_cutoff > 0.0 && raised_order == 0 ? options.singular_cutoff
+                         : plan.far_in_single                               ? std::max(row->cutoff, single_cutoff)
+                                                                            : row->cutoff;
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
   plan.expected_error = plan.far_in_single ? std::max(row->error, single_error) : row->error;
 

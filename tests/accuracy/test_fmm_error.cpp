@@ -329,6 +329,29 @@ TEST(FmmCheck, MeasuresTheErrorAndMendsOrStops) {
   EXPECT_EQ(bad.statistics().n_misses, 1);
 }
 
+TEST(FmmCheck, RaisesTheOrderAndLeavesNothingOfTheMissInTheSum) {
+  PointForces from = with_forces(make_tube(300), 1e-5, 12);
+  from.force.assign(from.force.size(), {1.0, 0.3, -0.2});  // far fields that add up
+  const Sources sources = on_device(from);
+  const Vectors velocity("velocity", from.position.size()), exact("exact", from.position.size());
+  FmmOptions options;
+  options.tolerance = 3e-3;
+  options.order = 4;
+  options.leaf_size = 30;
+  options.singular_cutoff = 0.5;  // cut far too short, until the order is raised
+  options.check_every = 1;
+  FmmMobility fmm(viscosity, options);
+  fmm.add_velocity(sources, sources.position, velocity);
+  DirectMobility(viscosity, Precision::in_double).add_velocity(sources, sources.position, exact);
+  EXPECT_GE(fmm.statistics().n_misses, 1);
+  EXPECT_GT(fmm.statistics().plan.order, 4);
+  EXPECT_FALSE(fmm.statistics().last_miss.empty());
+  EXPECT_LT(error_of(to_host(velocity), to_host(exact)), options.tolerance);
+  const int n_misses = fmm.statistics().n_misses;
+  fmm.add_velocity(sources, sources.position, velocity);
+  EXPECT_EQ(fmm.statistics().n_misses, n_misses) << "the raised order is kept";
+}
+
 TEST(FmmCheck, ChoosesTheDirectSumWhereItIsCheaper) {
   FmmOptions options;
   options.direct_when_cheaper = true;

@@ -28,7 +28,7 @@ struct FmmOptions {
   FmmPrecision precision = FmmPrecision::automatic;
   bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
   bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
-  double singular_cutoff = 0.0;      ///< of the surface operators, relative to the largest singular value
+  double singular_cutoff = 0.0;      ///< of the surface operators, relative; a raised order has its own
   int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks
   int n_checked_targets = 64;
   OnMiss on_miss = OnMiss::raise_order;
