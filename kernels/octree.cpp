@@ -153,7 +153,13 @@ void Octree::choose_cube(const Nodes& source, const Nodes& target, const OctreeR
   nodes_per_cell_ = rules.leaf_size;
   if (more.extent_int(0) > rules.leaf_size) {
     const CellChoice choice = choose_cell(more, corner_, extent, rules.leaf_size);
-    cell = std::min(extent, std::max(smallest, quantized(choice.side)));
+    if (rules.has_quantized_cells) {
+      cell = std::min(extent, std::max(smallest, quantized(choice.side)));
+    } else {
+      // A whole number of cells along the longest side: none at the rim is nearly empty.
+      const double n_cells = std::min(std::round(extent / choice.side), std::floor(extent / smallest));
+      cell = extent / std::max(1.0, n_cells);
+    }
     nodes_per_cell_ = choice.nodes_per_cell;
   }
 

@@ -256,6 +256,7 @@ bool FmmMobility::Evaluator::add(const FmmOptions& options, FmmPlan plan, const 
   OctreeRules rules;
   rules.leaf_size = plan.leaf_size;
   rules.min_half_width = plan.min_half_width;
+  rules.has_quantized_cells = options.far_field == FarField::regularized;
   const int edge = plan.order - 1;
   rules.min_sources_for_expansion = 6 * edge * edge + 2;
   tree_.build(nodes.position, nodes.target, rules);

@@ -95,8 +95,10 @@ double nearest_boxes_error(const int order, const double blob_over_half_width, c
     from.force.push_back(Vec3{1.0, 0.5, -0.7} + random.in_cube(1.0));
     from.blob.push_back(blob_over_half_width * half_width);
   }
-  from.position[0] = half_width * Vec3{-0.9999, -0.9999, -0.9999};  // the corners pin the boxes
-  target[0] = half_width * Vec3{4.9999, 0.9999, 0.9999};
+  // Cells fit the nodes' extent, or come in steps where operators depend on them.
+  const double pin = far_field == FarField::regularized ? 0.9999 : 1.0;
+  from.position[0] = half_width * Vec3{-pin, -0.9999, -0.9999};  // the corners pin the boxes
+  target[0] = half_width * Vec3{4.0 + pin, 0.9999, 0.9999};
   FmmOptions options;
   options.far_field = far_field;
   options.stokes_part_only = stokes_part_only;
