@@ -10,6 +10,13 @@
 #include <immintrin.h>
 #endif
 
+/// Before a loop over a few packs: keeps them in registers. nvcc's front end does not know the pragma.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+#define SKEIN_UNROLL _Pragma("GCC unroll 4")
+#else
+#define SKEIN_UNROLL
+#endif
+
 namespace skein::simd {
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)

@@ -57,7 +57,7 @@ void add_tile(const Block<Real>& targets, const int first, const SourceTile<Real
   for (int s = 0; s < sources.n_nodes; ++s) {
     const Real fx = sources.force[0][s], fy = sources.force[1][s], fz = sources.force[2][s];
     const Real blob_squared = sources.blob_squared[s];
-#pragma GCC unroll 4
+SKEIN_UNROLL
     for (int k = 0; k < packs; ++k) {
       simd::Pack<Real> dx = x[k] - sources.high[0][s];
       simd::Pack<Real> dy = y[k] - sources.high[1][s];

@@ -1,22 +1,20 @@
-#include "simulation.hpp"
+#include "app/simulation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
-#include <limits>
-
-#include "app/duration.hpp"
-#include "app/run_description.hpp"
-#include <skein/analysis/centreline.hpp>
-#include <skein/core/error.hpp>
+#include <skein/core/kill_point.hpp>
 #include <skein/core/runtime.hpp>
-#include <skein/hydro/direct_mobility.hpp>
+#include <skein/io/atomic_file.hpp>
 #include <skein/time/make_integrator.hpp>
 
-#include "duration.hpp"
-#include "run_description.hpp"
+#include "app/checkpoint_memory.hpp"
+#include "app/evaluation_time.hpp"
+#include "app/make_mobility.hpp"
+#include "app/observables.hpp"
+#include "app/run_description.hpp"
 
 namespace skein {
 namespace {
@@ -27,55 +25,105 @@ double seconds_since(const Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene) {
-  const auto precision = scene.hydrodynamics.precision == "single" ? Precision::in_single : Precision::in_double;
-  return std::make_unique<DirectMobility>(scene.fluid.viscosity, precision);
+std::unique_ptr<Mobility> add_fault(std::unique_ptr<Mobility> mobility, const FaultOrder& order,
+                                    const CurrentStep& step) {
+  if (order.target != "force") return mobility;
+  return std::make_unique<FaultyMobility>(std::move(mobility), order, step);
 }
 
-/// Wall time of one evaluation: the median of five after a warm-up.
-double time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
-  const Vectors velocity("skein::time_evaluation", position.extent(0));
-  std::vector<double> seconds;
-  for (int repeat = 0; repeat < 6; ++repeat) {
-    const auto start = Clock::now();
-    dynamics.compute_velocity(0.0, position, velocity);
-    Kokkos::fence();
-    if (repeat > 0) seconds.push_back(seconds_since(start));
-    if (seconds_since(start) > 1.0) break;  // long runs: a rough figure will do
-  }
-  if (seconds.empty()) return 0.0;
-  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  return seconds[seconds.size() / 2];
+TrajectoryEnd find_start(const RunFolder& folder, const Checkpoint* checkpoint) {
+  return checkpoint == nullptr ? find_trajectory_start(folder) : read_trajectory_end(*checkpoint);
 }
 
 }  // namespace
 
-Simulation::Simulation(const SceneConfig& scene, const std::string& scene_text, const RunFolder& folder,
-                       const ProgressReport::Kind progress, const bool quiet)
+Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint,
+                       RunControl& control, const ProgressReport::Kind progress, const bool quiet)
     : scene_(scene),
+      folder_(folder),
+      control_(control),
       fibers_(make_fibers(scene.fibers)),
+      fault_order_(read_fault_order()),
       dynamics_(fibers_, std::make_unique<SpringForces>(fibers_), make_background_flow(scene.flow),
-                make_mobility(scene)),
+                add_fault(make_mobility(scene), fault_order_, current_step_)),
+      faulty_dynamics_(dynamics_, fault_order_, current_step_),
+      watched_dynamics_(fault_order_.target.empty() ? static_cast<RightHandSide&>(dynamics_) : faulty_dynamics_,
+                        control),
       state_{0.0, 0, to_device("skein::Simulation::position", make_surface_nodes(fibers_))},
-      integrator_(make_integrator(scene, fibers_, dynamics_)),
+      integrator_(make_integrator(scene, fibers_, watched_dynamics_)),
       log_(folder.run_log()),
       events_(folder.events()),
-      trajectory_(folder, describe_layout(scene, scene_text, fibers_), scene.output),
-      progress_(progress, 0.0, scene.time.end),
+      trajectory_(folder, describe_layout(scene, read_file(folder.scene()), fibers_), scene.output,
+                  find_start(folder, checkpoint)),
+      checkpoints_(folder),
+      progress_(progress, checkpoint == nullptr ? 0.0 : checkpoint->number("state.time"), scene.time.end,
+                checkpoint == nullptr ? 0 : checkpoint->integer("run.evaluations")),
       frame_position_("skein::Simulation::frame_position", state_.position.extent(0)),
-      quiet_(quiet) {}
-
-void Simulation::introduce() {
-  say(describe_run(scene_, fibers_, dynamics_, *integrator_, time_evaluation(dynamics_, state_.position)));
+      last_checkpoint_(Clock::now()),
+      quiet_(quiet) {
+  control_.watch(folder);
+  if (checkpoint != nullptr) restore(*checkpoint);
+  counters_at_start_ = counters_;
+  steps_at_start_ = state_.step;
 }
 
-std::string describe_dry_run(const SceneConfig& scene) {
-  const auto fibers = make_fibers(scene.fibers);
-  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
-                         make_mobility(scene));
-  const auto integrator = make_integrator(scene, fibers, dynamics);
-  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers));
-  return describe_run(scene, fibers, dynamics, *integrator, time_evaluation(dynamics, position));
+void Simulation::Counters::visit_memory(MemoryVisitor& visitor) {
+  visitor.integer("run.evaluations", evaluations);
+  visitor.integer("run.rejected", rejected);
+  visitor.integer("run.next_frame", next_frame);
+  visitor.number("run.pairs", pairs);
+  visitor.number("run.seconds", seconds);
+}
+
+void Simulation::restore(const Checkpoint& checkpoint) {
+  MemoryRestorer restorer(checkpoint);
+  visit_memory(restorer, state_);
+  integrator_->visit_memory(restorer);
+  counters_.visit_memory(restorer);
+  step_of_checkpoint_ = state_.step;
+}
+
+void Simulation::save_checkpoint() {
+  if (step_of_checkpoint_ == state_.step) return;
+  const auto start = Clock::now();
+  const double trajectory_seconds = trajectory_.seconds_spent();
+  trajectory_.close_segment();
+  counters_.seconds = seconds_of_run();
+  Checkpoint checkpoint;
+  MemorySaver saver(checkpoint);
+  visit_memory(saver, state_);
+  integrator_->visit_memory(saver);
+  counters_.visit_memory(saver);
+  write_trajectory_end(checkpoint, trajectory_.end());
+  checkpoint.set("scene.xxh3", find_trajectory_start(folder_).checksum);
+  checkpoint.set("scene.seed", std::vector<std::int64_t>{static_cast<std::int64_t>(scene_.seed)});
+  checkpoint.set("program.version", std::string(version()));
+  checkpoint.set("program.commit", std::string(commit()));
+  checkpoint.set("program.backend", describe_backend());
+  checkpoint_bytes_ += checkpoints_.write(checkpoint, scene_.checkpoint.keep);
+  step_of_checkpoint_ = state_.step;
+  last_checkpoint_ = Clock::now();
+  const double seconds = seconds_since(start);
+  control_.note_checkpoint(seconds);
+  checkpoint_seconds_ += seconds - (trajectory_.seconds_spent() - trajectory_seconds);
+  events_.write(
+      "checkpoint",
+      {{"number", checkpoints_.last_number()}, {"time", state_.time}, {"step", state_.step}, {"seconds", seconds}});
+}
+
+bool Simulation::checkpoint_is_due(const double time_before) const {
+  const CheckpointConfig& config = scene_.checkpoint;
+  if (config.wall_interval > 0.0 && seconds_since(last_checkpoint_) >= config.wall_interval) return true;
+  const double interval = config.simulated_interval;
+  return interval > 0.0 && std::floor(state_.time / interval) > std::floor(time_before / interval);
+}
+
+void Simulation::introduce() {
+  const double seconds = time_evaluation(dynamics_, state_.position);
+  spare_evaluations_ = dynamics_.evaluations();
+  spare_pairs_ = dynamics_.mobility().pairs();
+  spare_seconds_ = dynamics_.seconds();
+  say(describe_run(scene_, fibers_, dynamics_, *integrator_, seconds));
 }
 
 void Simulation::say(const std::string& text) {
@@ -85,56 +133,135 @@ void Simulation::say(const std::string& text) {
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
-ExitCode Simulation::run(const double max_walltime) {
-  const auto start = Clock::now();
+double Simulation::seconds_of_run() const { return counters_at_start_.seconds + seconds_since(start_); }
+
+ExitCode Simulation::run() {
   events_.write("start", {{"nodes", static_cast<std::int64_t>(state_.position.extent(0))},
+                          {"step", state_.step},
+                          {"time", state_.time},
                           {"method", integrator_->describe()},
                           {"mobility", dynamics_.mobility().describe()},
                           {"backend", describe_backend()}});
-  if (next_frame_ == 0) {
+  if (counters_.next_frame == 0) {
     write_frame(0, 0.0, state_.position);
-    next_frame_ = 1;
+    counters_.next_frame = 1;
   }
-  ExitCode code = ExitCode::done;
   try {
-    while (state_.time < scene_.time.end) {
-      const StepReport report = integrator_->advance(state_, scene_.time.end);
-      if (report.rejected > 0) {
-        rejected_ += report.rejected;
-        events_.write("rejected",
-                      {{"time", state_.time}, {"attempts", std::int64_t{report.rejected}}, {"dt", report.dt}});
-      }
-      record_step(report);
-      write_frames_up_to(state_.time);
-      seconds_ = seconds_since(start);
-      progress_.update(state_.time, dynamics_.evaluations());
-      if (max_walltime > 0.0 && seconds_ > max_walltime && state_.time < scene_.time.end) {
-        code = ExitCode::stopped;
-        break;
-      }
-    }
+    advance_to_end();
+  } catch (const Interruption&) {  // the step is given up, and all is as it was before it
   } catch (const Error& error) {
     if (error.code() != ExitCode::numerical) throw;
-    progress_.clear();
-    log_.write(error.what());
-    events_.write("failed", {{"time", state_.time}, {"message", std::string(error.what())}});
-    if (state_.time > (static_cast<double>(next_frame_) - 1.0) * scene_.output.frame_interval)
-      write_frame(state_.step, state_.time, state_.position);
-    trajectory_.finish("failed");
+    save_last_good_state(error);
     throw;
   }
-  seconds_ = seconds_since(start);
+  const ExitCode code = state_.time < scene_.time.end ? ExitCode::stopped : ExitCode::done;
+  save_checkpoint();
   trajectory_.finish(code == ExitCode::done ? "done" : "stopped");
-  say(code == ExitCode::done
-          ? fmt::format("done: t = {:g}", state_.time)
-          : fmt::format("stopped at t = {:g} of {:g}: the wall time is used up", state_.time, scene_.time.end));
-  say(describe_cost());
+  report_end(code);
+  return code;
+}
+
+void Simulation::advance_to_end() {
+  while (state_.time < scene_.time.end) {
+    const double time_before = state_.time;
+    take_step();
+    reach_kill_point("step");
+    progress_.update(state_.time, counters_.evaluations);
+    const auto demand = control_.look(step_seconds_);
+    if (demand == RunControl::Demand::stop) return;
+    if (state_.time < scene_.time.end && (demand == RunControl::Demand::checkpoint || checkpoint_is_due(time_before)))
+      save_checkpoint();
+  }
+}
+
+void Simulation::take_step() {
+  const auto start = Clock::now();
+  current_step_.number = state_.step + 1;
+  const StepReport report = advance();
+  count(report);
+  const auto recording = Clock::now();
+  double in_trajectory = trajectory_.seconds_spent();
+  record_step(report);
+  observables_seconds_ += seconds_since(recording) - (trajectory_.seconds_spent() - in_trajectory);
+  const auto framing = Clock::now();
+  in_trajectory = trajectory_.seconds_spent();
+  write_frames_up_to(state_.time);
+  frame_seconds_ += seconds_since(framing) - (trajectory_.seconds_spent() - in_trajectory);
+  step_seconds_ = seconds_since(start);
+}
+
+StepReport Simulation::advance() {
+  // Also steps that are not finished take time.
+  const struct Stopwatch {
+    double& sum;
+    Clock::time_point start = Clock::now();
+    ~Stopwatch() { sum += seconds_since(start); }
+  } stopwatch{integration_seconds_};
+  return integrator_->advance(state_, scene_.time.end);
+}
+
+void Simulation::count(const StepReport& report) {
+  counters_.evaluations = counters_at_start_.evaluations + dynamics_.evaluations() - spare_evaluations_;
+  counters_.pairs = counters_at_start_.pairs + dynamics_.mobility().pairs() - spare_pairs_;
+  largest_error_ = std::max(largest_error_, report.error);
+  if (report.rejected == 0) return;
+  counters_.rejected += report.rejected;
+  events_.write("rejected", {{"time", state_.time}, {"attempts", std::int64_t{report.rejected}}, {"dt", report.dt}});
+}
+
+void Simulation::save_last_good_state(const Error& error) {
+  progress_.clear();
+  log_.write(error.what());
+  events_.write("failed", {{"time", state_.time}, {"message", std::string(error.what())}});
+  // First the checkpoint, whose trajectory has frames at their own times only.
+  save_checkpoint();
+  if (state_.time > (static_cast<double>(counters_.next_frame) - 1.0) * scene_.output.frame_interval)
+    write_frame(state_.step, state_.time, state_.position);
+  trajectory_.finish("failed");
+  say(fmt::format("the last good state, t = {:.6g}, step {}, is in '{}'", state_.time, state_.step,
+                  checkpoints_.path_of(checkpoints_.last_number()).string()));
+  say(describe_cost(make_cost_card()));
+}
+
+void Simulation::report_end(const ExitCode code) {
+  if (code == ExitCode::done)
+    say(fmt::format("done: t = {:g}", state_.time));
+  else
+    say(fmt::format("stopped at t = {:.6g} of {:g} (step {}): {}. 'skein resume {}' goes on.", state_.time,
+                    scene_.time.end, state_.step, control_.reason(), folder_.path().string()));
+  const CostCard card = make_cost_card();
+  say(describe_cost(card));
   events_.write("end", {{"time", state_.time},
                         {"steps", state_.step},
-                        {"evaluations", dynamics_.evaluations()},
-                        {"seconds", seconds_},
-                        {"pairs", dynamics_.mobility().pairs()}});
-  return code;
+                        {"evaluations", counters_.evaluations},
+                        {"rejected", counters_.rejected},
+                        {"pairs", counters_.pairs},
+                        {"seconds", card.seconds},
+                        {"seconds_before", card.seconds_before},
+                        {"fluid_seconds", card.fluid},
+                        {"springs_and_flow_seconds", card.springs_and_flow},
+                        {"integrator_seconds", card.integrator},
+                        {"observables_seconds", card.observables},
+                        {"output_seconds", card.output}});
+}
+
+CostCard Simulation::make_cost_card() const {
+  CostCard card;
+  card.seconds = seconds_since(start_);
+  card.seconds_before = counters_at_start_.seconds;
+  card.steps = state_.step - steps_at_start_;
+  card.rejected = counters_.rejected - counters_at_start_.rejected;
+  card.evaluations = dynamics_.evaluations() - spare_evaluations_;
+  card.pairs = dynamics_.mobility().pairs() - spare_pairs_;
+  card.fluid = dynamics_.seconds().fluid - spare_seconds_.fluid;
+  card.springs_and_flow = dynamics_.seconds().springs_and_flow - spare_seconds_.springs_and_flow;
+  card.integrator = integration_seconds_ - card.fluid - card.springs_and_flow;
+  card.observables = observables_seconds_;
+  card.output = trajectory_.seconds_spent() + frame_seconds_ + checkpoint_seconds_;
+  card.megabytes = 1e-6 * static_cast<double>(trajectory_.bytes_written() + checkpoint_bytes_);
+  card.largest_error = largest_error_;
+  card.mobility = dynamics_.mobility().describe();
+  return card;
 }
 
 void Simulation::write_frames_up_to(const double time) {
@@ -142,8 +269,9 @@ void Simulation::write_frames_up_to(const double time) {
   const double end = scene_.time.end;
   for (;;) {
     // The last frame is the end of the run, whether or not it is a multiple of the interval.
-    const double due = std::min(static_cast<double>(next_frame_) * interval, end);
-    const bool after_end = static_cast<double>(next_frame_ - 1) * interval >= end;
+    const auto next = static_cast<double>(counters_.next_frame);
+    const double due = std::min(next * interval, end);
+    const bool after_end = (next - 1.0) * interval >= end;
     if (due > time || after_end) return;
     if (due == time) {
       write_frame(state_.step, time, state_.position);
@@ -151,49 +279,18 @@ void Simulation::write_frames_up_to(const double time) {
       integrator_->interpolate(due, frame_position_);
       write_frame(state_.step - 1, due, frame_position_);
     }
-    ++next_frame_;
+    ++counters_.next_frame;
   }
 }
 
 void Simulation::write_frame(const std::int64_t step, const double time, const ConstVectors& position) {
-  Frame frame{step, time, to_host(position), compute_centreline(fibers_, position), {}};
-  for (const Fiber& fiber : fibers_) {
-    const auto curvature = compute_curvature(centreline_of(fiber, frame.centreline));
-    frame.curvature.insert(frame.curvature.end(), curvature.begin(), curvature.end());
-  }
-  trajectory_.append(frame);
+  trajectory_.append(make_frame(fibers_, step, time, position));
 }
 
 void Simulation::record_step(const StepReport& report) {
-  StepRecord record;
-  record.step = state_.step;
-  record.time = state_.time;
-  record.dt = report.dt;
-  record.error = report.error;
-  record.spectral_radius = report.spectral_radius;
-  record.evaluations = dynamics_.evaluations();
-  record.energy = dynamics_.springs().compute_energies(state_.position);
-  const auto centreline = compute_centreline(fibers_, state_.position);
-  record.smallest_gap = compute_smallest_gap(fibers_, centreline);
-  for (const Fiber& fiber : fibers_) {
-    const auto line = centreline_of(fiber, centreline);
-    const auto curvature = compute_curvature(line);
-    record.length.push_back(compute_length(line));
-    record.curvature_max.push_back(*std::max_element(curvature.begin(), curvature.end()));
-    record.end_to_end.push_back(compute_end_to_end(line));
-  }
+  StepRecord record = make_step_record(fibers_, dynamics_.springs(), state_, report);
+  record.evaluations = counters_.evaluations;
   trajectory_.append(record);
-}
-
-std::string Simulation::describe_cost() const {
-  const double evaluations = static_cast<double>(dynamics_.evaluations());
-  return fmt::format(
-      "cost: {} wall time; {} steps ({} rejected), {} evaluations of {:.3g} ms; {:.3g} pairs/s over the whole run; "
-      "output "
-      "{:.2f} % of the time, {:.1f} MB",
-      format_duration(seconds_), state_.step, rejected_, dynamics_.evaluations(), 1e3 * seconds_ / evaluations,
-      dynamics_.mobility().pairs() / seconds_, 100.0 * trajectory_.seconds_spent() / seconds_,
-      1e-6 * static_cast<double>(trajectory_.bytes_written()));
 }
 
 }  // namespace skein

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <skein/config/scene_config.hpp>
 #include <skein/core/error.hpp>
+#include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/event_log.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_log.hpp>
@@ -11,49 +13,86 @@
 #include <skein/time/integrator.hpp>
 #include <string>
 
+#include "app/cost_card.hpp"
+#include "app/fault_injection.hpp"
 #include "app/progress.hpp"
+#include "app/run_control.hpp"
+#include "app/watched_dynamics.hpp"
 
 namespace skein {
 
 /// Wires the layers into one run of one scene. Nothing else does.
 class Simulation {
  public:
-  /// @param scene_text  the resolved scene, for the folder and the trajectory
-  Simulation(const SceneConfig& scene, const std::string& scene_text, const RunFolder& folder,
+  /// @param folder      holds the scene's text; whatever a trajectory in it has behind the checkpoint is removed
+  /// @param checkpoint  where the run goes on; null: it starts at t = 0
+  Simulation(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
              ProgressReport::Kind progress, bool quiet);
 
   /// Says, on stderr and in run.log, what is going to be computed, how, and what it will take.
   void introduce();
 
-  /// To the end of the scene. @throws Error(numerical) after saving the last good state as a frame.
-  /// @param max_walltime  seconds, 0 for no limit
-  ExitCode run(double max_walltime);
+  /// On stderr and in run.log.
+  void say(const std::string& text);
+
+  /// To the end of the scene, or until it is asked to stop, with a checkpoint in either case.
+  /// @throws Error(numerical) after saving the last good state as a checkpoint and as a frame.
+  ExitCode run();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Counts over all processes that took part in the run, up to the last accepted step.
+  struct Counters {
+    std::int64_t evaluations = 0, rejected = 0, next_frame = 0;
+    double pairs = 0.0, seconds = 0.0;
+    void visit_memory(MemoryVisitor& visitor);
+  };
+
+  void restore(const Checkpoint& checkpoint);
+  void advance_to_end();
+  void take_step();
+  StepReport advance();
+  void count(const StepReport& report);
+  bool checkpoint_is_due(double time_before) const;
+  void save_checkpoint();
+  void save_last_good_state(const Error& error);
   void write_frames_up_to(double time);
   void write_frame(std::int64_t step, double time, const ConstVectors& position);
   void record_step(const StepReport& report);
-  void say(const std::string& text);
-  std::string describe_cost() const;
+  void report_end(ExitCode code);
+  CostCard make_cost_card() const;
+  double seconds_of_run() const;
 
+  Clock::time_point start_ = Clock::now();  // first: setting up counts
   SceneConfig scene_;
+  RunFolder folder_;
+  RunControl& control_;
   std::vector<Fiber> fibers_;
+  FaultOrder fault_order_;
+  CurrentStep current_step_;
   FiberDynamics dynamics_;
+  FaultyDynamics faulty_dynamics_;
+  WatchedDynamics watched_dynamics_;
   State state_;
   std::unique_ptr<Integrator> integrator_;
   RunLog log_;
   EventLog events_;
   TrajectoryWriter trajectory_;
+  CheckpointFolder checkpoints_;
   ProgressReport progress_;
   Vectors frame_position_;
-  std::int64_t next_frame_ = 0;
-  std::int64_t rejected_ = 0;
-  std::int64_t evaluations_before_ = 0;  ///< spent on measuring their cost
-  double seconds_ = 0.0;
+
+  Counters counters_, counters_at_start_;
+  std::int64_t spare_evaluations_ = 0;  ///< that measured their own cost, and their pairs
+  double spare_pairs_ = 0.0;
+  FiberDynamics::Seconds spare_seconds_;
+  std::int64_t steps_at_start_ = 0, step_of_checkpoint_ = -1;
+  Clock::time_point last_checkpoint_;
+  double step_seconds_ = 0.0, integration_seconds_ = 0.0, observables_seconds_ = 0.0, frame_seconds_ = 0.0,
+         checkpoint_seconds_ = 0.0, largest_error_ = 0.0;
+  std::uint64_t checkpoint_bytes_ = 0;
   bool quiet_;
 };
-
-/// The lines of introduce() for a scene that is not going to be run.
-std::string describe_dry_run(const SceneConfig& scene);
 
 }  // namespace skein

@@ -2,33 +2,51 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <skein/config/scene_file.hpp>
 #include <skein/core/error.hpp>
 #include <skein/core/runtime.hpp>
 #include <skein/io/run_folder.hpp>
+#include <skein/io/run_lock.hpp>
 
-#include <cmath>
-#include <cstdio>
-
+#include "app/evaluation_time.hpp"
+#include "app/run_control.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
 
 namespace skein {
+namespace {
+
+// An earlier run's folder is locked before anything in it is replaced; a new one as soon as it is there.
+RunFolder make_folder(const RunOptions& options, const std::string& scene_text, std::optional<RunLock>& lock) {
+  std::error_code ignored;
+  if (options.overwrite && std::filesystem::exists(options.folder / "scene.toml", ignored))
+    lock.emplace(RunFolder::open_begun(options.folder));
+  RunFolder folder = RunFolder::create(options.folder, scene_text, options.overwrite);
+  if (!lock) lock.emplace(folder);
+  return folder;
+}
+
+}  // namespace
 
 int run_scene(const RunOptions& options) {
   const SceneReading reading = read_scene(options.scene, options.overrides);
   if (!options.quiet && !reading.warnings.empty()) print_warning(describe_problems(reading.warnings));
-  const std::string scene_text = write_scene(reading.config);
 
   const Runtime runtime(options.threads);
   if (options.dry_run) {
     fmt::print("{}\n", describe_dry_run(reading.config));
     return 0;
   }
-  const RunFolder folder = RunFolder::create(options.folder, scene_text, options.overwrite);
-  Simulation simulation(reading.config, scene_text, folder, ProgressReport::choose_kind(options.quiet), options.quiet);
+  RunControl control(options.max_walltime);
+  std::optional<RunLock> lock;
+  const RunFolder folder = make_folder(options, write_scene(reading.config), lock);
+  Simulation simulation(reading.config, folder, nullptr, control, ProgressReport::choose_kind(options.quiet),
+                        options.quiet);
   simulation.introduce();
-  return static_cast<int>(simulation.run(std::isfinite(options.max_walltime) ? options.max_walltime : 0.0));
+  return static_cast<int>(simulation.run());
 }
 
 }  // namespace skein

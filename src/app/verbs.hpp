@@ -12,6 +12,8 @@ using Action = std::function<int()>;
 using AddVerb = void (*)(CLI::App& app, Action& action);
 
 void add_run_verb(CLI::App& app, Action& action);
+void add_resume_verb(CLI::App& app, Action& action);
+void add_verify_verb(CLI::App& app, Action& action);
 void add_validate_verb(CLI::App& app, Action& action);
 void add_defaults_verb(CLI::App& app, Action& action);
 void add_info_verb(CLI::App& app, Action& action);

@@ -24,6 +24,20 @@ PairPrecision pair_precision(const Precision precision) {
   return std::all_of(blob, blob + sources.blob.extent(0), [=](const double value) { return value == *blob; });
 }
 
+/// Takes the symmetric sum where it is possible. A template, so that a GPU build compiles no call of the host's kernel.
+template <class Space>
+bool try_symmetric_sum(const Space& space, const Sources& sources, const ConstVectors& target, const Vectors& velocity,
+                       const double viscosity, const PairPrecision precision) {
+  if constexpr (on_host<Space>) {
+    if (!is_symmetric(sources, target)) return false;
+    add_symmetric_stokeslet_velocity(space, sources.position, sources.force, sources.blob, velocity, viscosity,
+                                     precision);
+    return true;
+  } else {
+    return false;
+  }
+}
+
 }  // namespace
 
 DirectMobility::DirectMobility(const double viscosity, const Precision precision)
@@ -33,15 +47,11 @@ DirectMobility::DirectMobility(const double viscosity, const Precision precision
 
 void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   pairs_ += static_cast<double>(sources.position.extent(0)) * static_cast<double>(target.extent(0));
-  if constexpr (on_host<ExecSpace>) {
-    if (is_symmetric(sources, target)) {
-      add_symmetric_stokeslet_velocity(ExecSpace(), sources.position, sources.force, sources.blob, velocity, viscosity_,
-                                       pair_precision(precision_));
-      return;
-    }
-  }
-  add_stokeslet_velocity<ExecSpace>(ExecSpace(), sources.position, sources.force, sources.blob, target, velocity,
-                                    viscosity_, pair_precision(precision_));
+  const ExecSpace space;
+  const PairPrecision precision = pair_precision(precision_);
+  if (try_symmetric_sum(space, sources, target, velocity, viscosity_, precision)) return;
+  add_stokeslet_velocity<ExecSpace>(space, sources.position, sources.force, sources.blob, target, velocity, viscosity_,
+                                    precision);
 }
 
 std::string DirectMobility::describe() const {

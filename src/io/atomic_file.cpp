@@ -1,6 +1,7 @@
 #include <skein/io/atomic_file.hpp>
 
 #include <skein/core/error.hpp>
+#include <skein/core/kill_point.hpp>
 
 #include <cerrno>
 #include <cstring>
@@ -24,14 +25,23 @@ namespace {
 }
 
 // A rename is on disk only when its folder is.
-void sync_folder(const std::filesystem::path& folder, const std::filesystem::path& file) {
+void sync_folder(const std::filesystem::path& folder, const std::string& what) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) throw_io_error(fmt::format("cannot open the folder of '{}'", file.string()), errno);
+  if (descriptor < 0) throw_io_error(what + ": its folder cannot be opened", errno);
   // Some network file systems know no sync of folders; they rename in order.
   const int error_number = ::fsync(descriptor) == 0 ? 0 : errno;
   ::close(descriptor);
   if (error_number != 0 && error_number != EINVAL && error_number != ENOTSUP)
-    throw_io_error(fmt::format("cannot sync the folder of '{}'", file.string()), error_number);
+    throw_io_error(what + ": its folder cannot be synced", error_number);
+}
+
+// For tests: "checkpoint.half", "segment.before_rename", "trajectory.h5.after_rename", ...
+void reach_point(const std::filesystem::path& path, const char* point) {
+  const std::string folder = path.parent_path().filename().string();
+  const std::string kind = folder == "checkpoints" ? "checkpoint"
+                           : folder == "segments"  ? "segment"
+                                                   : path.filename().string();
+  reach_kill_point(kind + "." + point);
 }
 
 }  // namespace
@@ -39,7 +49,7 @@ void sync_folder(const std::filesystem::path& folder, const std::filesystem::pat
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
   partial_ += ".partial";
   descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw_io_error(fmt::format("cannot create '{}'", partial_.string()), errno);
+  if (descriptor_ < 0) throw_io_error(fmt::format("cannot create '{}' (0 bytes written)", partial_.string()), errno);
 }
 
 AtomicFile::~AtomicFile() {
@@ -50,9 +60,10 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::write(const void* bytes, const std::size_t n_bytes) {
   const char* next = static_cast<const char*>(bytes);
+  const std::size_t half = n_bytes / 2;  // in two parts, so that tests can kill between them
   std::size_t left = n_bytes;
   while (left > 0) {
-    const ssize_t written = ::write(descriptor_, next, left);
+    const ssize_t written = ::write(descriptor_, next, left > half ? left - half : left);
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0)
       throw_io_error(
@@ -60,6 +71,7 @@ void AtomicFile::write(const void* bytes, const std::size_t n_bytes) {
           written < 0 ? errno : ENOSPC);
     next += written;
     left -= static_cast<std::size_t>(written);
+    if (left == half) reach_point(path_, "half");
   }
   bytes_written_ += n_bytes;
 }
@@ -67,13 +79,15 @@ void AtomicFile::write(const void* bytes, const std::size_t n_bytes) {
 void AtomicFile::commit() {
   const std::string what = fmt::format("cannot put '{}' ({} bytes) on disk", path_.string(), bytes_written_);
   if (::fsync(descriptor_) != 0) throw_io_error(what, errno);
+  reach_point(path_, "before_rename");
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0 || ::rename(partial_.c_str(), path_.c_str()) != 0) {
     const int error_number = errno;
     ::unlink(partial_.c_str());
     throw_io_error(what, error_number);
   }
-  sync_folder(path_.has_parent_path() ? path_.parent_path() : ".", path_);
+  reach_point(path_, "after_rename");
+  sync_folder(path_.has_parent_path() ? path_.parent_path() : ".", what);
 }
 
 void write_file_atomically(const std::filesystem::path& path, const std::string_view content) {

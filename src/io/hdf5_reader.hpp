@@ -2,6 +2,7 @@
 
 #include "hdf5_handle.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -17,8 +18,12 @@ class Hdf5Reader {
 
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string text_attribute(const std::string& object, const std::string& name) const;
+  std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
   std::vector<std::int64_t> read_integers(const std::string& dataset) const;
   std::vector<double> read_reals(const std::string& dataset) const;
+
+  /// The numbers as they are stored, in this machine's byte order. The dataset must hold that kind of number.
+  std::vector<std::byte> read_raw(const std::string& dataset, Number number) const;
 
  private:
   [[noreturn]] void fail(const std::string& object) const;

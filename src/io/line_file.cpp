@@ -15,8 +15,8 @@ namespace skein {
 LineFile::LineFile(const std::filesystem::path& path) : path_(path) {
   descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
-    throw Error(ExitCode::io_error,
-                fmt::format("cannot open '{}' for writing: {}.", path.string(), std::strerror(errno)));
+    throw Error(ExitCode::io_error, fmt::format("cannot open '{}' for writing (0 bytes written): {}.", path.string(),
+                                                std::strerror(errno)));
 }
 
 LineFile::~LineFile() { ::close(descriptor_); }

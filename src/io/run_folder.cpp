@@ -30,11 +30,12 @@ bool is_file_of_a_run(const std::string& name) {
   return false;
 }
 
-// Segments and checkpoints: digits and ".h5".
+// Segments and checkpoints: digits and ".h5" or ".checkpoint", also what became of them.
 bool is_numbered_file(const std::string& name) {
   std::string_view stem = without_partial(name);
-  if (!stem.ends_with(".h5")) return false;
-  stem.remove_suffix(3);
+  for (const std::string_view suffix : {".damaged", ".checkpoint", ".h5"})
+    if (stem.ends_with(suffix)) stem.remove_suffix(suffix.size());
+  if (stem.size() == name.size()) return false;
   for (const char c : stem)
     if (std::isdigit(static_cast<unsigned char>(c)) == 0) return false;
   return !stem.empty();
@@ -45,6 +46,13 @@ bool holds_a_run(const RunFolder& folder) {
   if (!fs::is_directory(folder.segments())) return false;
   const bool has_nothing_else = std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1;
   return fs::exists(folder.scene()) || has_nothing_else;
+}
+
+void check_present(const fs::path& folder, const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored))
+    throw Error(ExitCode::missing_input,
+                fmt::format("'{}' is not a run folder: it has no {}.", folder.string(), file.filename().string()));
 }
 
 void remove_files(const fs::path& folder, bool (*is_ours)(const std::string&)) {
@@ -73,7 +81,9 @@ RunFolder RunFolder::create(const fs::path& path, const std::string& scene, cons
       remove_files(folder.checkpoints(), is_numbered_file);
       remove_files(path, is_file_of_a_run);
     }
-    fs::create_directories(folder.segments());
+    // Of two that start at once in a new folder only one makes this folder.
+    if (!fs::create_directories(folder.segments()) && !overwrite)
+      throw Error(ExitCode::cannot_create, fmt::format("another run has just begun in '{}'.", name));
   } catch (const fs::filesystem_error& error) {
     const bool disk = error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error;
     throw Error(disk ? ExitCode::io_error : ExitCode::cannot_create,
@@ -83,15 +93,18 @@ RunFolder RunFolder::create(const fs::path& path, const std::string& scene, cons
   return folder;
 }
 
-RunFolder RunFolder::open(const fs::path& path) {
+RunFolder RunFolder::open_begun(const fs::path& path) {
   const RunFolder folder(path);
   std::error_code ignored;
   if (!fs::is_directory(path, ignored))
     throw Error(ExitCode::missing_input, fmt::format("there is no run folder '{}'.", path.string()));
-  for (const fs::path& file : {folder.scene(), folder.index()})
-    if (!fs::exists(file, ignored))
-      throw Error(ExitCode::missing_input,
-                  fmt::format("'{}' is not a run folder: it has no {}.", path.string(), file.filename().string()));
+  check_present(path, folder.scene());
+  return folder;
+}
+
+RunFolder RunFolder::open(const fs::path& path) {
+  const RunFolder folder = open_begun(path);
+  check_present(path, folder.index());
   return folder;
 }
 

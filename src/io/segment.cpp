@@ -1,5 +1,11 @@
 #include "segment.hpp"
 
+#include <skein/io/atomic_file.hpp>
+
+#include "hdf5_reader.hpp"
+
+#include <limits>
+
 #include <fmt/format.h>
 
 namespace skein {
@@ -28,6 +34,34 @@ std::uint64_t write_segment(const RunFolder& folder, const Series& frames, const
   file.set_attribute("/", "previous_xxh3", previous_checksum);
   file.set_attribute("/", "xxh3", segment.checksum);
   return file.commit();
+}
+
+SegmentLabel read_segment_label(const RunFolder& folder, const std::int64_t number) {
+  const Hdf5Reader file(folder.path() / segment_name(number));
+  SegmentLabel label;
+  label.segment.number = file.integer_attribute("/", "number");
+  label.segment.first_frame = file.integer_attribute("/", "first_frame");
+  label.segment.first_record = file.integer_attribute("/", "first_record");
+  label.segment.checksum = file.text_attribute("/", "xxh3");
+  label.previous_checksum = file.text_attribute("/", "previous_xxh3");
+  label.frame_times = file.read_reals("/particles/fibers/position/time");
+  const auto frame_steps = file.read_integers("/particles/fibers/position/step");
+  const auto record_times = file.read_reals("/observables/energy/time");
+  const auto record_steps = file.read_integers("/observables/energy/step");
+  label.segment.n_frames = static_cast<std::int64_t>(label.frame_times.size());
+  label.segment.n_records = static_cast<std::int64_t>(record_times.size());
+  label.segment.last_time =
+      label.frame_times.empty() ? std::numeric_limits<double>::quiet_NaN() : label.frame_times.back();
+  if (!frame_steps.empty()) label.last_frame_step = frame_steps.back();
+  if (!record_steps.empty()) label.last_record_step = record_steps.back();
+  if (!record_times.empty()) label.last_record_time = record_times.back();
+  return label;
+}
+
+std::string checksum_of_file(const std::filesystem::path& path) {
+  Checksum checksum;
+  checksum.add(read_file(path));
+  return checksum.text();
 }
 
 }  // namespace skein

@@ -68,6 +68,10 @@ void Series::append(const std::int64_t step, const double time, const std::vecto
   }
   step_.push_back(step);
   time_.push_back(time);
+  set_last_moment(step, time);
+}
+
+void Series::set_last_moment(const std::int64_t step, const double time) {
   has_last_ = true;
   last_step_ = step;
   last_time_ = time;

@@ -34,6 +34,9 @@ class Series {
   /// Forgets the rows, keeps the last moment.
   void clear();
 
+  /// The last moment of rows that are on disk already.
+  void set_last_moment(std::int64_t step, double time);
+
   std::size_t n_rows() const { return time_.size(); }
   std::size_t n_bytes() const;
   const std::vector<double>& times() const { return time_; }

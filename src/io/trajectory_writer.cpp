@@ -10,7 +10,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <limits>
+#include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -36,10 +39,17 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
-std::string checksum_of_file(const std::filesystem::path& path) {
-  Checksum checksum;
-  checksum.add(read_file(path));
-  return checksum.text();
+// Segments that the index does not list, and files that a killed process left unfinished.
+void remove_leftovers(const RunFolder& folder, const std::size_t n_segments) {
+  std::set<std::string> listed;
+  for (std::size_t number = 0; number < n_segments; ++number)
+    listed.insert(std::filesystem::path(segment_name(static_cast<std::int64_t>(number))).filename().string());
+  std::error_code ignored;  // what stays is overwritten later
+  for (const auto& entry : std::filesystem::directory_iterator(folder.segments(), ignored))
+    if (listed.count(entry.path().filename().string()) == 0) std::filesystem::remove(entry.path(), ignored);
+  for (const auto& path : {folder.path(), folder.checkpoints()})
+    for (const auto& entry : std::filesystem::directory_iterator(path, ignored))
+      if (entry.path().extension() == ".partial") std::filesystem::remove(entry.path(), ignored);
 }
 
 }  // namespace
@@ -61,10 +71,29 @@ struct TrajectoryWriter::Parts {
   double seconds = 0.0;
   std::uint64_t bytes = 0;
 
+  void take_over(const TrajectoryEnd& end);
   void save();
   void write_segment_file();
   void save_when_due();
 };
+
+void TrajectoryWriter::Parts::take_over(const TrajectoryEnd& end) {
+  const std::string fault = find_missing_segments(folder, end);
+  if (!fault.empty()) throw Error(ExitCode::damaged_data, fault);
+  double last_time = std::numeric_limits<double>::quiet_NaN();
+  for (std::int64_t number = 0; number < end.segments; ++number) {
+    SegmentLabel label = read_segment_label(folder, number);
+    if (label.segment.n_frames > 0) {
+      last_time = label.segment.last_time;
+      frames.set_last_moment(label.last_frame_step, last_time);
+    }
+    if (label.segment.n_records > 0) records.set_last_moment(label.last_record_step, label.last_record_time);
+    label.segment.last_time = last_time;
+    xdmf.add_frames(label.segment, label.frame_times);
+    checksum = label.segment.checksum;
+    segments.push_back(std::move(label.segment));
+  }
+}
 
 // On an error the buffers and index_is_old still say what is left to do.
 void TrajectoryWriter::Parts::save() {
@@ -116,6 +145,33 @@ TrajectoryWriter::TrajectoryWriter(const RunFolder& folder, TrajectoryLayout lay
   const Stopwatch stopwatch(parts_->seconds);
   parts_->checksum = checksum_of_file(folder.scene());
   parts_->save();
+}
+
+TrajectoryWriter::TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
+                                   const TrajectoryEnd& end, const SegmentLimits limits) {
+  Series frames = make_frame_series(layout, output);
+  Series records = make_step_series(layout);
+  XdmfText xdmf(layout.fibers, output);
+  parts_.reset(new Parts{folder, std::move(layout), limits, std::move(frames), std::move(records), std::move(xdmf)});
+  const Stopwatch stopwatch(parts_->seconds);
+  parts_->checksum = checksum_of_file(folder.scene());
+  parts_->take_over(end);
+  // The index first: whoever reads must not be sent to segments that are gone.
+  parts_->save();
+  remove_leftovers(folder, parts_->segments.size());
+  std::error_code ignored;
+  if (end.frames == 0) std::filesystem::remove(folder.xdmf(), ignored);
+}
+
+TrajectoryEnd TrajectoryWriter::end() const {
+  TrajectoryEnd end;
+  end.checksum = parts_->checksum;
+  if (parts_->segments.empty()) return end;
+  const Segment& last = parts_->segments.back();
+  end.segments = last.number + 1;
+  end.frames = last.first_frame + last.n_frames;
+  end.records = last.first_record + last.n_records;
+  return end;
 }
 
 TrajectoryWriter::~TrajectoryWriter() {

@@ -30,16 +30,18 @@ StepReport Euler::advance(State& state, const double end) {
   const double dt = left < 1.001 * dt_ ? left : dt_;
   Kokkos::deep_copy(ExecSpace(), start_, state.position);
   rhs_.compute_velocity(state.time, start_, velocity_);
-  if (spectral_radius_ == 0.0) {
+  double radius = spectral_radius_;
+  if (radius == 0.0) {
     // Once, at the start: near a blow-up nodes are too far out for it to mean anything.
     SpectralRadius power_iteration(state.position.extent_int(0), displacement_ratio * length_scale_, 1);
-    spectral_radius_ = power_iteration.estimate(rhs_, state.time, start_, velocity_, 1e-3, 100);
+    radius = power_iteration.estimate(rhs_, state.time, start_, velocity_, 1e-3, 100);
   }
   combine<ExecSpace>(ExecSpace(), end_, {1.0, start_}, {dt, velocity_});
   const std::string fault = rhs_.find_fault(end_);
   if (!fault.empty())
     throw Error(ExitCode::numerical, fmt::format("blow-up in step {} at t = {:.6g}: {}.\n{}", state.step + 1,
-                                                 state.time + dt, fault, explain_instability()));
+                                                 state.time + dt, fault, explain_instability(radius)));
+  spectral_radius_ = radius;
   step_start_ = state.time;
   step_end_ = dt == left ? end : state.time + dt;
   Kokkos::deep_copy(ExecSpace(), state.position, end_);
@@ -51,17 +53,20 @@ StepReport Euler::advance(State& state, const double end) {
   return report;
 }
 
-std::string Euler::explain_instability() const {
+std::string Euler::explain_instability(const double radius) const {
   return fmt::format(
-      "Forward Euler is stable below dt = 2 / spectral radius = {:.3g} only (spectral radius {:.4g} at the start of the "
+      "Forward Euler is stable below dt = 2 / spectral radius = {:.3g} only (spectral radius {:.4g} at the start of "
+      "the "
       "run); dt = {:.4g} gives dt * radius = {:.3g}. Set time.step below that, or use time.method = \"rkc2\".",
-      2.0 / spectral_radius_, spectral_radius_, dt_, dt_ * spectral_radius_);
+      2.0 / radius, radius, dt_, dt_ * radius);
 }
 
 void Euler::interpolate(const double time, const Vectors& position) const {
   const double theta = step_end_ > step_start_ ? (time - step_start_) / (step_end_ - step_start_) : 1.0;
   combine<ExecSpace>(ExecSpace(), position, {1.0 - theta, start_}, {theta, end_});
 }
+
+void Euler::visit_memory(MemoryVisitor& visitor) { visitor.number("euler.spectral_radius", spectral_radius_); }
 
 std::string Euler::describe() const { return fmt::format("forward Euler, dt = {:g}", dt_); }
 

@@ -13,12 +13,12 @@
 namespace skein {
 namespace {
 
-constexpr double spectral_margin = 1.2;   // sections that ovalize blow up within 20 steps of an underestimate
+constexpr double spectral_margin = 1.2;  // sections that ovalize blow up within 20 steps of an underestimate
 constexpr int steps_between_refreshes = 25;
 constexpr double refresh_accuracy = 0.02;
 constexpr int first_iterations = 60;
 constexpr int refresh_iterations = 12;
-constexpr int max_stages = 1000;
+constexpr int max_stages = 1000;  // rounding errors of a step grow with their square
 constexpr int max_rejections = 30;
 constexpr double min_step_ratio = 1e-12;  // of the largest step allowed
 
@@ -36,6 +36,7 @@ Rkc2::Rkc2(RightHandSide& rhs, const Rkc2Options& options, const int n_nodes)
     : rhs_(rhs),
       options_(options),
       power_iteration_(n_nodes, options.displacement, options.seed),
+      kept_direction_(make_vectors("kept_direction", n_nodes)),
       start_(make_vectors("start", n_nodes)),
       start_velocity_(make_vectors("start_velocity", n_nodes)),
       end_(make_vectors("end", n_nodes)),
@@ -48,12 +49,21 @@ int Rkc2::stages_for(const double dt, const double spectral_radius) {
   return std::max(2, 1 + static_cast<int>(std::sqrt(1.0 + 1.54 * dt * spectral_radius)));
 }
 
-void Rkc2::refresh_spectral_radius(const double time, const bool first) {
+// Which node's velocity at end_ is not finite: added to the positions, nearly nothing of it.
+std::string Rkc2::find_velocity_fault() {
+  combine<ExecSpace>(ExecSpace(), error_, {1.0, end_}, {1e-300, end_velocity_});
+  return rhs_.find_fault(error_);
+}
+
+void Rkc2::refresh_spectral_radius(const double time, const bool first, const std::string& fault) {
   const double estimate =
       power_iteration_.estimate(rhs_, time, end_, end_velocity_, refresh_accuracy * (first ? 0.1 : 1.0),
                                 first ? first_iterations : refresh_iterations);
-  if (!std::isfinite(estimate))
-    throw Error(ExitCode::numerical, fmt::format("t = {:.6g}: the velocity of displaced nodes is not finite", time));
+  if (!std::isfinite(estimate)) {
+    const std::string what = fault.empty() ? find_velocity_fault() : fault;
+    throw Error(ExitCode::numerical,
+                fmt::format("t = {:.6g}: velocities are not finite{}{}", time, what.empty() ? "" : "; ", what));
+  }
   spectral_radius_ = spectral_margin * estimate;
   steps_since_refresh_ = 0;
 }
@@ -83,8 +93,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   const double w0 = 1.0 + 2.0 / (13.0 * s * s);
   const double root = std::sqrt(w0 * w0 - 1.0);
   const double argument = s * std::log(w0 + root);
-  const double w1 = std::sinh(argument) * (w0 * w0 - 1.0) /
-                    (std::cosh(argument) * s * root - w0 * std::sinh(argument));
+  const double w1 = std::sinh(argument) * (w0 * w0 - 1.0) / (std::cosh(argument) * s * root - w0 * std::sinh(argument));
 
   double t_2 = 1.0, t_1 = w0, dt_2 = 0.0, dt_1 = 1.0, ddt_2 = 0.0, ddt_1 = 0.0;  // of j - 2 and j - 1
   double b_2 = 1.0 / (4.0 * w0 * w0), b_1 = b_2;
@@ -123,10 +132,55 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   rhs_.compute_velocity(time + dt, end_, end_velocity_);
   combine<ExecSpace>(ExecSpace(), error_, {0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_},
                      {0.4 * dt, end_velocity_});
-  return {root_mean_square(error_) / (options_.tolerance * options_.length_scale * std::max(dt, shortest_accounting_time())), stages};
+  return {root_mean_square(error_) /
+              (options_.tolerance * options_.length_scale * std::max(dt, shortest_accounting_time())),
+          stages};
+}
+
+void Rkc2::swap_ends() {
+  std::swap(start_, end_);
+  std::swap(start_velocity_, end_velocity_);
+  in_step_ = !in_step_;
+}
+
+void Rkc2::keep_memory() {
+  kept_ = {control_, spectral_radius_, next_dt_, steps_since_refresh_, started_};
+  Kokkos::deep_copy(ExecSpace(), kept_direction_, power_iteration_.vector());
+}
+
+void Rkc2::bring_memory_back() {
+  control_ = kept_.control;
+  spectral_radius_ = kept_.spectral_radius;
+  next_dt_ = kept_.next_dt;
+  steps_since_refresh_ = kept_.steps_since_refresh;
+  started_ = kept_.started;
+  Kokkos::deep_copy(ExecSpace(), power_iteration_.vector(), kept_direction_);
+  if (in_step_) swap_ends();
+}
+
+// Of the last step only its end: start_ serves frames inside that step, which are written before anything is saved.
+void Rkc2::visit_memory(MemoryVisitor& visitor) {
+  visitor.count("rkc2.started", started_);
+  visitor.count("rkc2.steps_since_refresh", steps_since_refresh_);
+  visitor.number("rkc2.spectral_radius", spectral_radius_);
+  visitor.number("rkc2.next_dt", next_dt_);
+  control_.visit_memory(visitor);
+  power_iteration_.visit_memory(visitor);
+  visitor.vectors("rkc2.end", end_);
+  visitor.vectors("rkc2.end_velocity", end_velocity_);
 }
 
 StepReport Rkc2::advance(State& state, const double end) {
+  keep_memory();
+  try {
+    return take_step(state, end);
+  } catch (...) {
+    bring_memory_back();
+    throw;
+  }
+}
+
+StepReport Rkc2::take_step(State& state, const double end) {
   if (!started_) {
     Kokkos::deep_copy(ExecSpace(), end_, state.position);
     rhs_.compute_velocity(state.time, end_, end_velocity_);
@@ -136,13 +190,14 @@ StepReport Rkc2::advance(State& state, const double end) {
   } else if (steps_since_refresh_ >= steps_between_refreshes) {
     refresh_spectral_radius(state.time, false);
   }
-  std::swap(start_, end_);
-  std::swap(start_velocity_, end_velocity_);
+  swap_ends();
 
   const double left = end - state.time;
   StepReport report;
   std::string fault;
-  double dt = std::min(next_dt_, options_.max_step);
+  double dt = options_.fixed_step > 0.0 ? options_.fixed_step : std::min(next_dt_, options_.max_step);
+  if (options_.fixed_step <= 0.0 && spectral_radius_ > 0.0)
+    dt = std::min(dt, static_cast<double>(max_stages) * max_stages / (1.6 * spectral_radius_));
   for (;;) {
     const double planned = dt;
     // Two steps of equal size at the end rather than a large and a tiny one.
@@ -154,7 +209,9 @@ StepReport Rkc2::advance(State& state, const double end) {
     report.stages = result.stages;
     report.error = result.error;
     fault = rhs_.find_fault(end_);
-    if (fault.empty() && options_.fixed_step > 0.0) break;
+    if (fault.empty() && !std::isfinite(result.error)) fault = find_velocity_fault();
+    // The velocity at the end belongs to the next step's memory: it has to be a number, too.
+    if (fault.empty() && options_.fixed_step > 0.0 && std::isfinite(result.error)) break;
     if (fault.empty() && result.error <= 1.0) {
       const double proposed = control_.after_accepted(dt, result.error);
       // A step cut short by the end says little about the next one.
@@ -162,23 +219,19 @@ StepReport Rkc2::advance(State& state, const double end) {
       break;
     }
     ++report.rejected;
-    if (options_.fixed_step > 0.0 || report.rejected > max_rejections || dt < min_step_ratio * options_.max_step) {
-      std::swap(start_, end_);
-      std::swap(start_velocity_, end_velocity_);
+    if (options_.fixed_step > 0.0 || report.rejected > max_rejections || dt < min_step_ratio * options_.max_step)
       throw Error(ExitCode::numerical,
                   fmt::format("no acceptable step at t = {:.6g} (step {}): {} attempts, the last with dt = {:.3g}, {} "
                               "stages and an error of {:.3g} times the tolerance{}{}",
                               state.time, state.step + 1, report.rejected, dt, result.stages, result.error,
                               fault.empty() ? "" : "; ", fault));
-    }
     dt = control_.after_rejected(dt, fault.empty() ? result.error : std::nan(""));
     // An underestimated radius shows as a rejection: look again, from the start of the step.
-    std::swap(start_, end_);
-    std::swap(start_velocity_, end_velocity_);
-    refresh_spectral_radius(state.time, false);
-    std::swap(start_, end_);
-    std::swap(start_velocity_, end_velocity_);
+    swap_ends();
+    refresh_spectral_radius(state.time, false, fault);
+    swap_ends();
   }
+  in_step_ = false;
   ++steps_since_refresh_;
   step_start_ = state.time;
   step_end_ = dt == left ? end : state.time + dt;

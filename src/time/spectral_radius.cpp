@@ -42,11 +42,13 @@ double SpectralRadius::estimate(RightHandSide& rhs, const double time, const Con
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     combine<ExecSpace>(ExecSpace(), displaced_, {1.0, position}, {displacement_, direction_});
     rhs.compute_velocity(time, displaced_, displaced_velocity_);
-    combine<ExecSpace>(ExecSpace(), direction_, {1.0 / displacement_, displaced_velocity_},
+    const Vectors& change = displaced_velocity_;
+    combine<ExecSpace>(ExecSpace(), change, {1.0 / displacement_, displaced_velocity_},
                        {-1.0 / displacement_, velocity});
-    const double size = root_mean_square(direction_);
+    const double size = root_mean_square(change);
+    // The vector stays as it was: one that is zero or not finite would spoil every later estimate.
     if (!(size > 0.0) || !std::isfinite(size)) return size;
-    combine<ExecSpace>(ExecSpace(), direction_, {1.0 / size, direction_}, {0.0, direction_});
+    combine<ExecSpace>(ExecSpace(), direction_, {1.0 / size, change}, {0.0, change});
     const bool settled = iteration > 0 && std::abs(size - radius) <= accuracy * size;
     radius = size;
     if (settled) break;

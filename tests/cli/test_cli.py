@@ -192,7 +192,7 @@ class CommandLine(InFreshFolder):
 
     def test_a_missing_input_is_named(self):
         for arguments in (["validate", "none.toml"], ["run", "none.toml", "-o", "result"], ["info", "none"],
-                          ["plot", "none"], ["validate", "."]):
+                          ["resume", "none"], ["verify", "none"], ["plot", "none"], ["validate", "."]):
             with self.subTest(arguments=arguments):
                 result = skein(*arguments, cwd=self.folder)
                 self.assertEqual((result.returncode, result.stdout), (MISSING_INPUT, ""), result.stderr)
@@ -200,7 +200,7 @@ class CommandLine(InFreshFolder):
                 self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_help_has_examples(self):
-        for verb in ([], ["run"], ["validate"], ["defaults"], ["info"], ["plot"]):
+        for verb in ([], ["run"], ["resume"], ["verify"], ["validate"], ["defaults"], ["info"], ["plot"]):
             with self.subTest(verb=verb):
                 result = skein(*verb, "--help")
                 self.assertEqual((result.returncode, result.stderr), (DONE, ""))

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "tests/property/random_fluid.hpp"
 #include "tests/reference/gauss_rule.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
@@ -20,7 +21,6 @@ namespace {
 
 using reference::Cloud;
 using reference::PointForces;
-using reference::Random;
 using reference::relative_error;
 
 struct Row {
@@ -30,34 +30,6 @@ struct Row {
 };
 
 std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
-
-/// A random fluid with random forces in it; no number is 1.
-struct Fluid {
-  PointForces sources;
-  double viscosity = 0.0;
-  double size = 0.0;  ///< half extent of the cloud, length
-  Random random{0};
-};
-
-/// rapidcheck draws the number of sources and a seed, and shrinks both where a property fails.
-Fluid draw_fluid(const int most_sources, const bool equal_blobs) {
-  const int n_sources = *rc::gen::resize(1000, rc::gen::inRange(1, most_sources + 1)).as("sources");
-  const auto seed = *rc::gen::arbitrary<std::uint64_t>().as("seed");
-  const Cloud cloud =
-      *rc::gen::elementOf(std::vector<Cloud>(std::begin(reference::all_clouds), std::end(reference::all_clouds)));
-  RC_LOG() << reference::name_of(cloud) << '\n';
-  Fluid fluid;
-  fluid.random = Random(seed);
-  fluid.viscosity = fluid.random.log_uniform(0.02, 50.0);
-  fluid.size = fluid.random.log_uniform(0.01, 100.0);
-  const double spacing = fluid.size / std::cbrt(n_sources), force = fluid.random.log_uniform(1e-3, 1e3);
-  fluid.sources.position =
-      reference::make_cloud(cloud, n_sources, fluid.random.in_cube(3.0 * fluid.size), fluid.size, fluid.random);
-  fluid.sources.force = reference::make_random_vectors(n_sources, force, fluid.random);
-  fluid.sources.blob = reference::make_random_lengths(n_sources, 0.03 * spacing, 0.3 * spacing, fluid.random);
-  if (equal_blobs) fluid.sources.blob.assign(fluid.sources.blob.size(), fluid.sources.blob.front());
-  return fluid;
-}
 
 class MobilityProperties : public ::testing::TestWithParam<Row> {
  protected:
@@ -83,28 +55,6 @@ class MobilityProperties : public ::testing::TestWithParam<Row> {
   static Sources on_device(const PointForces& from) {
     return {to_device("test::position", from.position), to_device("test::force", from.force),
             to_device("test::blob", from.blob)};
-  }
-};
-
-double norm_of(const std::vector<Vec3>& vectors) { return std::sqrt(reference::inner_product(vectors, vectors)); }
-
-/// A rotation by a random angle about a random axis (Rodrigues), and a shift.
-struct RigidMotion {
-  Vec3 axis, shift;
-  double angle;
-
-  explicit RigidMotion(Random& random, const double size)
-      : axis(random.direction()), shift(random.in_cube(20.0 * size)), angle(random.uniform(0.3, 6.0)) {}
-  Vec3 turn(const Vec3 v) const {
-    return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1.0 - std::cos(angle)) * dot(axis, v)) * axis;
-  }
-  std::vector<Vec3> turn(std::vector<Vec3> list) const {
-    for (Vec3& v : list) v = turn(v);
-    return list;
-  }
-  std::vector<Vec3> move(std::vector<Vec3> list) const {
-    for (Vec3& v : list) v = turn(v) + shift;
-    return list;
   }
 };
 

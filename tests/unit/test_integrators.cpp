@@ -1,99 +1,12 @@
-#include <skein/time/euler.hpp>
-#include <skein/time/rkc2.hpp>
-
 #include <gtest/gtest.h>
 
 #include "tests/unit/error_code.hpp"
-#include "tests/unit/pointwise_right_hand_side.hpp"
+#include "tests/unit/known_solutions.hpp"
 
 #include <cmath>
-#include <functional>
-#include <memory>
 
 namespace skein {
 namespace {
-
-constexpr int n_nodes = 4;
-constexpr double start_time = 0.2;
-
-/// An equation and its solution.
-struct Problem {
-  PointwiseRightHandSide::Velocity velocity;
-  std::function<Vec3(double time, int node)> solution;
-
-  std::vector<Vec3> solution_at(const double time) const {
-    std::vector<Vec3> list;
-    for (int node = 0; node < n_nodes; ++node) list.push_back(solution(time, node));
-    return list;
-  }
-};
-
-double distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i] - b[i], a[i] - b[i]);
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
-/// y' = -rate (y - g(t)) + g'(t), with y = g + (y - g)(0) exp(-rate t); one rate per node.
-Problem make_forced(const std::function<double(double time, int node)>& rate, const double off_at_start) {
-  const auto g = [](const double t, const int node) {
-    return Vec3{0.4 * std::sin(1.3 * t + node), 0.2 * t, 0.3 * std::cos(2.1 * t)};
-  };
-  const auto slope = [](const double t, const int node) {
-    return Vec3{0.52 * std::cos(1.3 * t + node), 0.2, -0.63 * std::sin(2.1 * t)};
-  };
-  const Vec3 off{off_at_start, -0.5 * off_at_start, 0.8 * off_at_start};
-  return {
-      [=](const double t, const int node, const Vec3 x) { return slope(t, node) - rate(t, node) * (x - g(t, node)); },
-      [=](const double t, const int node) { return g(t, node) + std::exp(-rate(t, node) * (t - start_time)) * off; }};
-}
-
-Problem make_slow() {
-  return make_forced([](double, const int node) { return 0.5 + 0.4 * node; }, 0.6);
-}
-
-/// y' = -2 t y^2, y = 1 / (1 / y(0) + t^2).
-Problem make_nonlinear() {
-  const auto offset = [](const int node) { return Vec3{0.8 + 0.3 * node, 1.7, 2.4}; };
-  return {[](const double t, int, const Vec3 x) {
-            return (-2.0 * t) * Vec3{x.x * x.x, x.y * x.y, x.z * x.z};
-          },
-          [=](const double t, const int node) {
-            const Vec3 o = offset(node);
-            return Vec3{1.0 / (o.x + t * t), 1.0 / (o.y + t * t), 1.0 / (o.z + t * t)};
-          }};
-}
-
-/// Slow motion of three nodes, and a fourth at rest that would decay at a high rate: many stages, all of which the slow
-/// nodes see.
-Problem make_stiff_at_rest() {
-  const Problem slow = make_slow();
-  return {
-      [=](const double t, const int node, const Vec3 x) { return node == 3 ? -3000.0 * x : slow.velocity(t, node, x); },
-      [=](const double t, const int node) { return node == 3 ? Vec3{} : slow.solution(t, node); }};
-}
-
-State make_state(const Problem& problem) {
-  State state;
-  state.time = start_time;
-  state.position = to_device("test::position", problem.solution_at(start_time));
-  return state;
-}
-
-Rkc2Options make_options() {
-  Rkc2Options options;
-  options.length_scale = 0.7;
-  options.displacement = 1e-6;
-  options.max_step = 0.5;
-  return options;
-}
-
-std::unique_ptr<Integrator> make_fixed(const bool rkc2, RightHandSide& rhs, const double dt) {
-  if (!rkc2) return std::make_unique<Euler>(rhs, dt, 0.7, n_nodes);
-  Rkc2Options options = make_options();
-  options.fixed_step = dt;
-  return std::make_unique<Rkc2>(rhs, options, n_nodes);
-}
 
 /// Error at the end of a run at a fixed step.
 double error_of_run(const bool rkc2, const Problem& problem, const double dt, const double end) {
@@ -253,101 +166,6 @@ TEST(Euler, ExplainsItsBlowUp) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
 }
 
-TEST(Rkc2, StagesCoverTheSpectrum) {
-  EXPECT_EQ(Rkc2::stages_for(0.0, 0.0), 2);
-  EXPECT_EQ(Rkc2::stages_for(0.1, 0.01), 2);
-  for (const double z : {1.0, 2.0, 5.0, 17.0, 100.0, 1e3, 1e5}) {
-    const int stages = Rkc2::stages_for(0.25, 4.0 * z);
-    EXPECT_GE(0.6529 * (stages * stages - 1.0), z) << z;                  // 2/3 (s^2 - 1) (1 - 2/15 * 2/13)
-    EXPECT_LT(0.6529 * ((stages - 2.0) * (stages - 2.0) - 1.0), z) << z;  // and hardly any to spare
-  }
-}
-
-/// 12 rates from 1 to 1e4, evenly on a logarithmic scale.
-double wide_rate(const int component) { return std::pow(1e4, component / 11.0); }
-
-TEST(Rkc2, IsStableAtAThousandTimesTheStepOfEuler) {
-  auto decay = make_decay(wide_rate);
-  const double dt = 0.1;
-  const auto rkc2 = make_fixed(true, decay, dt);
-  State state;
-  state.position = to_device("test::position", std::vector<Vec3>(n_nodes, Vec3{0.4, -0.4, 0.4}));
-  for (int step = 0; step < 200; ++step) {
-    const auto before = decay.evaluations();
-    const StepReport report = rkc2->advance(state, 1e9);
-    EXPECT_NEAR(report.spectral_radius, 1.2e4, 0.03 * 1.2e4);
-    EXPECT_EQ(report.stages, Rkc2::stages_for(dt, report.spectral_radius));
-    if (step % 25 == 7) {  // between estimates of the radius
-      EXPECT_EQ(decay.evaluations() - before, report.stages);
-    }
-    for (const Vec3 x : to_host(ConstVectors(state.position))) ASSERT_LE(norm(x), 0.7);
-    if (step == 9) {
-      EXPECT_NEAR(to_host(ConstVectors(state.position))[0].x, 0.4 * std::exp(-1.0), 2e-3);
-    }
-  }
-  for (const Vec3 x : to_host(ConstVectors(state.position))) EXPECT_LT(norm(x), 1e-4);
-}
-
-/// Error at the end of a run under error control, with its number of steps.
-double adaptive_error(const Problem& problem, const double tolerance, const double end, int& n_steps) {
-  PointwiseRightHandSide rhs(problem.velocity);
-  Rkc2Options options = make_options();
-  options.tolerance = tolerance;
-  Rkc2 rkc2(rhs, options, n_nodes);
-  State state = make_state(problem);
-  while (state.time < end) {
-    const StepReport report = rkc2.advance(state, end);
-    EXPECT_LE(report.error, 1.0);
-    EXPECT_LE(report.dt, options.max_step * (1.0 + 1e-12));
-  }
-  n_steps = static_cast<int>(state.step);
-  return distance(to_host(ConstVectors(state.position)), problem.solution_at(end));
-}
-
-TEST(Rkc2, MeetsItsTolerance) {
-  const double duration = 4.0;
-  for (const Problem& problem : {make_slow(), make_nonlinear(), make_stiff_at_rest()}) {
-    int n_coarse, n_fine;
-    const double coarse = adaptive_error(problem, 1e-3, start_time + duration, n_coarse);
-    const double fine = adaptive_error(problem, 1e-5, start_time + duration, n_fine);
-    EXPECT_LT(coarse, 10.0 * 1e-3 * 0.7 * duration);
-    EXPECT_LT(fine, 10.0 * 1e-5 * 0.7 * duration);
-    EXPECT_GT(fine, 1e-3 * 1e-5 * 0.7 * duration);  // nor wastes steps
-    EXPECT_GT(n_fine, 3 * n_coarse);
-  }
-}
-
-// Fast modes far from rest at the start: the first step must see them, the later ones must not.
-TEST(Rkc2, LeavesAFastTransientBehind) {
-  const Problem problem = make_forced([](double, const int node) { return node == 0 ? 1e4 : 0.7; }, 0.5);
-  int n_steps;
-  EXPECT_LT(adaptive_error(problem, 1e-4, start_time + 3.0, n_steps), 10.0 * 1e-4 * 0.7 * 3.0);
-  EXPECT_LT(n_steps, 1000);
-}
-
-TEST(Rkc2, RecoversWhenTheSpectralRadiusJumps) {
-  const double jump = start_time + 1.03;
-  const Problem problem =
-      make_forced([=](const double t, const int node) { return node == 1 ? (t < jump ? 300.0 : 3000.0) : 0.6; }, 0.0);
-  PointwiseRightHandSide rhs(problem.velocity);
-  Rkc2 rkc2(rhs, make_options(), n_nodes);
-  State state = make_state(problem);
-  int n_rejected = 0, n_steps_after = 0;
-  double radius = 0.0;
-  const double end = start_time + 4.0;
-  while (state.time < end) {
-    const StepReport report = rkc2.advance(state, end);
-    n_rejected += report.rejected;
-    n_steps_after += state.time > jump;
-    radius = report.spectral_radius;
-    ASSERT_LT(state.step, 1000);
-  }
-  EXPECT_GT(n_rejected, 0);
-  EXPECT_NEAR(radius, 1.2 * 3000.0, 0.05 * 3600.0);
-  EXPECT_LT(n_steps_after, 200);
-  EXPECT_LT(distance(to_host(ConstVectors(state.position)), problem.solution_at(end)), 10.0 * 1e-4 * 0.7 * 4.0);
-}
-
 TEST(Integrator, KeepsTheLastGoodStateWhenVelocitiesAreNotANumber) {
   for (const double failing : {0.0, 1.0})  // from the start, or later
     for (const int kind : {0, 1, 2}) {
@@ -389,23 +207,6 @@ TEST(Integrator, KeepsTheLastGoodStateWhenVelocitiesAreNotANumber) {
       EXPECT_LE(state.time, failing > start_time ? failing + (kind < 2 ? 0.07 : 1e-9) : start_time);
       EXPECT_LT(distance(position, problem.solution_at(state.time)), kind == 0 ? 0.05 : 1e-2);
     }
-}
-
-// A step that throws leaves an integrator that can be asked again: here a fault that goes away.
-TEST(Rkc2, CanGoOnAfterAFault) {
-  const Problem sound = make_slow();
-  bool broken = false;
-  PointwiseRightHandSide rhs([&](const double t, const int node, const Vec3 x) {
-    return broken ? Vec3{std::nan(""), 0.0, 0.0} : sound.velocity(t, node, x);
-  });
-  Rkc2 rkc2(rhs, make_options(), n_nodes);
-  State state = make_state(sound);
-  for (int step = 0; step < 5; ++step) rkc2.advance(state, 2.0);
-  broken = true;
-  EXPECT_THROW(rkc2.advance(state, 2.0), Error);
-  broken = false;
-  while (state.time < 2.0) rkc2.advance(state, 2.0);
-  EXPECT_LT(distance(to_host(ConstVectors(state.position)), sound.solution_at(2.0)), 10.0 * 1e-4 * 0.7 * 2.0);
 }
 
 TEST(Integrator, SaysWhatItIs) {

@@ -8,6 +8,10 @@
 namespace skein {
 namespace {
 
+double component(const Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
+double& component(Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
+
+
 using Long = long double;
 struct LongVec {
   Long x = 0, y = 0, z = 0;
@@ -158,11 +162,11 @@ TEST(SpringForce, IsMinusTheGradientOfTheEnergy) {
   };
   constexpr double step = 1e-5;
   for (std::size_t node = 0; node < position.size(); node += 7) {
-    for (double Vec3::*component : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    for (int c = 0; c < 3; ++c) {
       auto ahead = position, behind = position;
-      ahead[node].*component += step;
-      behind[node].*component -= step;
-      EXPECT_NEAR(force[node].*component, (energy(behind) - energy(ahead)) / (2 * step), 1e-7) << node;
+      component(ahead[node], c) += step;
+      component(behind[node], c) -= step;
+      EXPECT_NEAR(component(force[node], c), (energy(behind) - energy(ahead)) / (2 * step), 1e-7) << node;
     }
   }
 }

@@ -51,6 +51,12 @@ struct OutputConfig {
   std::string precision = "double";  ///< "double", "single": positions in frames
 };
 
+struct CheckpointConfig {
+  double wall_interval = 300.0;     ///< seconds of wall time; 0: none by the clock
+  double simulated_interval = 0.0;  ///< time; 0: none by simulated time
+  int keep = 3;                     ///< newest ones
+};
+
 struct SceneConfig {
   std::string title;
   std::uint64_t seed = 1;
@@ -60,6 +66,7 @@ struct SceneConfig {
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;
+  CheckpointConfig checkpoint;
 };
 
 }  // namespace skein

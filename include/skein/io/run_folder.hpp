@@ -21,6 +21,10 @@ class RunFolder {
   /// The folder of an earlier run. @throws Error(missing_input) if there is none.
   static RunFolder open(const std::filesystem::path& path);
 
+  /// The folder of a run that may not have come as far as its first index. @throws Error(missing_input) if there is
+  /// none, or no scene in it.
+  static RunFolder open_begun(const std::filesystem::path& path);
+
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path scene() const { return path_ / "scene.toml"; }
   std::filesystem::path index() const { return path_ / "trajectory.h5"; }
@@ -28,6 +32,9 @@ class RunFolder {
   std::filesystem::path segments() const { return path_ / "segments"; }
   std::filesystem::path checkpoints() const { return path_ / "checkpoints"; }
   std::filesystem::path run_log() const { return path_ / "run.log"; }
+  std::filesystem::path lock() const { return path_ / "lock"; }
+  std::filesystem::path stop_request() const { return path_ / "STOP"; }
+  std::filesystem::path output_request() const { return path_ / "OUTPUT_NOW"; }
   std::filesystem::path events() const { return path_ / "events.jsonl"; }
 
  private:

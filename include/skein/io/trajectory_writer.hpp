@@ -3,6 +3,7 @@
 #include <skein/config/scene_config.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/trajectory.hpp>
+#include <skein/io/trajectory_end.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -31,6 +32,10 @@ class TrajectoryWriter {
   TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
                    SegmentLimits limits = {});
 
+  /// Goes on with a trajectory after `end`, forgetting what lies behind it. @throws also Error(damaged_data)
+  TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
+                   const TrajectoryEnd& end, SegmentLimits limits = {});
+
   /// Tries to save what is still buffered, but cannot report a failure: call finish() first.
   ~TrajectoryWriter();
   TrajectoryWriter(const TrajectoryWriter&) = delete;
@@ -42,6 +47,9 @@ class TrajectoryWriter {
 
   /// Puts what is buffered on disk; nothing happens where nothing is.
   void close_segment();
+
+  /// What is on disk: after close_segment() all that was appended.
+  TrajectoryEnd end() const;
 
   /// close_segment(), and writes how the run ended into the index: "done", "stopped", ... Until then it says "running".
   void finish(const std::string& status);

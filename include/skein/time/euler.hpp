@@ -13,10 +13,11 @@ class Euler final : public Integrator {
 
   StepReport advance(State& state, double end) override;
   void interpolate(double time, const Vectors& position) const override;
+  void visit_memory(MemoryVisitor& visitor) override;
   std::string describe() const override;
 
  private:
-  std::string explain_instability() const;
+  std::string explain_instability(double radius) const;
 
   RightHandSide& rhs_;
   double dt_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/core/memory_visitor.hpp>
 #include <skein/time/right_hand_side.hpp>
 
 #include <cstdint>
@@ -16,11 +17,11 @@ struct State {
 
 /// What one accepted step did, for the series and the log.
 struct StepReport {
-  double dt = 0.0;              ///< time advanced
-  double error = 0.0;           ///< estimated local error over tolerance; 0 where the method has no estimate
-  double spectral_radius = 0.0; ///< estimate in use, 1 / time; 0 where none is made
+  double dt = 0.0;               ///< time advanced
+  double error = 0.0;            ///< estimated local error over tolerance; 0 where the method has no estimate
+  double spectral_radius = 0.0;  ///< estimate in use, 1 / time; 0 where none is made
   int stages = 1;
-  int rejected = 0;             ///< attempts thrown away before this step
+  int rejected = 0;  ///< attempts thrown away before this step
 };
 
 /// Advances a State by one step of its own choice.
@@ -30,11 +31,15 @@ class Integrator {
 
   /// Takes one accepted step that does not pass `end`, replacing state.time, state.step and state.position.
   /// @throws Error(numerical) naming node and time when positions are no longer finite, when they left the model's
-  ///         range, or when the step fell below its minimum; the state is then the last good one.
+  ///         range, or when the step fell below its minimum. After this and any other exception the state and this
+  ///         object's memory are those before the call.
   virtual StepReport advance(State& state, double end) = 0;
 
   /// Positions at a time inside the last accepted step: output at exact times does not change the steps taken.
   virtual void interpolate(double time, const Vectors& position) const = 0;
+
+  /// All that the next step depends on besides the state: what a restart needs, and no more.
+  virtual void visit_memory(MemoryVisitor& visitor) = 0;
 
   virtual std::string describe() const = 0;
 };

@@ -26,6 +26,7 @@ class Rkc2 final : public Integrator {
 
   StepReport advance(State& state, double end) override;
   void interpolate(double time, const Vectors& position) const override;
+  void visit_memory(MemoryVisitor& visitor) override;
   std::string describe() const override;
 
   /// Stages for a stable step: 1 + int(sqrt(1 + 1.54 dt radius)), at least 2.
@@ -36,8 +37,13 @@ class Rkc2 final : public Integrator {
     double error;  ///< over tolerance; NaN where the step went wild
     int stages;
   };
+  StepReport take_step(State& state, double end);
   Attempt attempt(double time, double dt);
-  void refresh_spectral_radius(double time, bool first);
+  void swap_ends();
+  void keep_memory();
+  void bring_memory_back();
+  void refresh_spectral_radius(double time, bool first, const std::string& fault = "");
+  std::string find_velocity_fault();
   double first_step(double time);
   double shortest_accounting_time() const;
 
@@ -49,6 +55,16 @@ class Rkc2 final : public Integrator {
   double next_dt_ = 0.0;
   int steps_since_refresh_ = 0;
   bool started_ = false;
+
+  struct Kept {
+    StepControl control;
+    double spectral_radius = 0.0, next_dt = 0.0;
+    int steps_since_refresh = 0;
+    bool started = false;
+  };
+  Kept kept_;               ///< memory at the start of the step, with kept_direction_
+  Vectors kept_direction_;
+  bool in_step_ = false;    ///< start_ holds the last accepted positions, not end_
 
   double step_start_ = 0.0, step_end_ = 0.0;
   Vectors start_, start_velocity_;    ///< y_n and F_n of the last accepted step

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/core/memory_visitor.hpp>
 #include <skein/time/right_hand_side.hpp>
 
 #include <cstdint>
@@ -22,8 +23,9 @@ class SpectralRadius {
   double estimate(RightHandSide& rhs, double time, const ConstVectors& position, const ConstVectors& velocity,
                   double accuracy, int max_iterations);
 
-  /// The current vector, root-mean-square 1: what a restart needs.
+  /// The current vector, root-mean-square 1.
   const Vectors& vector() const { return direction_; }
+  void visit_memory(MemoryVisitor& visitor) { visitor.vectors("spectral_radius.vector", direction_); }
 
  private:
   double displacement_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skein/core/memory_visitor.hpp>
+
 namespace skein {
 
 /// Chooses the next step from estimated errors: 1 is just tolerable. Predictive controller of Watts and Gustafsson as in
@@ -24,6 +26,7 @@ class StepControl {
   };
   const Memory& memory() const { return memory_; }
   void restore(const Memory& memory) { memory_ = memory; }
+  void visit_memory(MemoryVisitor& visitor);
 
  private:
   Memory memory_;

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <skein/io/run_folder.hpp>
+
+#include <filesystem>
+
+namespace skein {
+
+/// Keeps a second writer out of a run folder while this object lives: the file `lock` in it, locked by the system and
+/// holding host name, process and when that process began. The lock of a process that is no more is taken over.
+class RunLock {
+ public:
+  /// @throws Error(cannot_create), saying who holds it, if the folder has a writer, or had one on another host, of
+  ///         which cannot be known whether it lives. @throws Error(io_error) if the lock cannot be written.
+  explicit RunLock(const RunFolder& folder);
+  ~RunLock();
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+
+  bool was_left_behind() const { return was_left_behind_; }  ///< by a process that did not end by itself
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+  bool was_left_behind_ = false;
+};
+
+}  // namespace skein

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <skein/io/trajectory.hpp>
+#include <skein/model/spring_forces.hpp>
+#include <skein/time/integrator.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace skein {
+
+/// Positions with what is derived from them. @param step  accepted ones before `time`
+Frame make_frame(const std::vector<Fiber>& fibers, std::int64_t step, double time, const ConstVectors& position);
+
+/// The small numbers of the step that led to `state`, but for the count of evaluations.
+StepRecord make_step_record(const std::vector<Fiber>& fibers, const SpringForces& springs, const State& state,
+                            const StepReport& report);
+
+}  // namespace skein

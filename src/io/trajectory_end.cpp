@@ -1,0 +1,49 @@
+#include <skein/io/trajectory_end.hpp>
+
+#include <skein/core/error.hpp>
+
+#include "segment.hpp"
+
+#include <fmt/format.h>
+
+namespace skein {
+
+TrajectoryEnd find_trajectory_start(const RunFolder& folder) { return {0, 0, 0, checksum_of_file(folder.scene())}; }
+
+void write_trajectory_end(Checkpoint& checkpoint, const TrajectoryEnd& end) {
+  using Integers = std::vector<std::int64_t>;
+  checkpoint.set("trajectory.segments", Integers{end.segments});
+  checkpoint.set("trajectory.frames", Integers{end.frames});
+  checkpoint.set("trajectory.records", Integers{end.records});
+  checkpoint.set("trajectory.xxh3", end.checksum);
+}
+
+TrajectoryEnd read_trajectory_end(const Checkpoint& checkpoint) {
+  return {checkpoint.integer("trajectory.segments"), checkpoint.integer("trajectory.frames"),
+          checkpoint.integer("trajectory.records"), checkpoint.text("trajectory.xxh3")};
+}
+
+std::string find_missing_segments(const RunFolder& folder, const TrajectoryEnd& end) {
+  std::string checksum = checksum_of_file(folder.scene());
+  std::int64_t n_frames = 0, n_records = 0;
+  for (std::int64_t number = 0; number < end.segments; ++number) {
+    try {
+      const SegmentLabel label = read_segment_label(folder, number);
+      if (label.segment.number != number || label.previous_checksum != checksum ||
+          label.segment.first_frame != n_frames || label.segment.first_record != n_records)
+        return fmt::format("its trajectory is broken: '{}' does not follow the segment before", segment_name(number));
+      n_frames += label.segment.n_frames;
+      n_records += label.segment.n_records;
+      checksum = label.segment.checksum;
+    } catch (const Error& error) {
+      return fmt::format("its trajectory is broken: {}", error.what());
+    }
+  }
+  if (n_frames != end.frames || n_records != end.records || checksum != end.checksum)
+    return fmt::format(
+        "its trajectory has {} frames and {} steps in {} segments (xxh3 {}), this folder's {} and {} ({})", end.frames,
+        end.records, end.segments, end.checksum, n_frames, n_records, checksum);
+  return "";
+}
+
+}  // namespace skein

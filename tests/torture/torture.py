@@ -1,0 +1,69 @@
+"""Everything a run must survive, and one table of what it did: torture.py SKEIN FOLDER [--short | --campaign] [MODULE...]
+
+FOLDER is filled with run folders. The exit code is 0 if every promise was kept."""
+
+import argparse
+import importlib
+import pathlib
+import subprocess
+import sys
+import time
+import traceback
+
+from program import Failed, Program
+
+# name of the module: the promise in words
+PROMISES = {
+    "kills": "killed at any time",
+    "restarts": "exact restart",
+    "stops": "signals, files, walltime",
+    "write_errors": "disk full, write errors",
+    "damaged_checkpoints": "damaged checkpoints",
+    "bad_scenes": "bad scenes",
+    "faults": "not a number",
+    "readers": "read while it writes",
+}
+COUNTS = {
+    "short": dict(kills=6, restarts=3, stops=1, full_disks=2, write_errors=5, damages=8, scenes=60, faults=4, readings=20),
+    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, scenes=2000, faults=50,
+                  readings=200),
+    "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000, scenes=20000,
+                     faults=500, readings=2000),
+}
+
+
+def torture(name, program, counts):
+    try:
+        count, remark = importlib.import_module(name).torture(program, counts)
+        return count, True, remark
+    except (Failed, subprocess.TimeoutExpired) as error:
+        return 0, False, str(error)
+    except Exception:  # the others are still worth knowing
+        return 0, False, traceback.format_exc()
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("program", type=pathlib.Path)
+    arguments.add_argument("folder", type=pathlib.Path)
+    size = arguments.add_mutually_exclusive_group()
+    size.add_argument("--short", dest="size", action="store_const", const="short")
+    size.add_argument("--campaign", dest="size", action="store_const", const="campaign")
+    arguments.add_argument("modules", nargs="*", metavar="MODULE", help=f"only these: {', '.join(PROMISES)}")
+    options = arguments.parse_args()
+    counts = COUNTS[options.size or "usual"]
+    options.folder.mkdir(parents=True, exist_ok=True)
+    program = Program(options.program.resolve(), options.folder.resolve())
+
+    kept = True
+    print(f"{'promise':26}{'count':>7}  {'passed':8}{'seconds':>8}  remark", flush=True)
+    for name in options.modules or PROMISES:
+        started = time.monotonic()
+        count, passed, remark = torture(name, program, counts)
+        kept = kept and passed
+        print(f"{PROMISES[name]:26}{count:7}  {'yes' if passed else 'NO':8}{time.monotonic() - started:8.1f}  {remark}", flush=True)
+    return 0 if kept else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

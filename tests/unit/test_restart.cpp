@@ -1,0 +1,164 @@
+// Every integrator, stopped after any step, goes on from what it says is its memory as if nothing had happened.
+
+#include <gtest/gtest.h>
+
+#include <app/checkpoint_memory.hpp>
+#include <functional>
+#include <memory>
+#include <skein/hydro/direct_mobility.hpp>
+#include <skein/time/fiber_dynamics.hpp>
+#include <skein/time/make_integrator.hpp>
+#include <vector>
+
+#include "tests/unit/error_code.hpp"
+
+namespace skein {
+namespace {
+
+SceneConfig make_scene(const int n_fibers, const std::function<void(TimeConfig&)>& choose) {
+  SceneConfig scene;
+  scene.fluid.viscosity = 1.3;
+  scene.flow.rate = 2.1;
+  scene.seed = 5;
+  FiberConfig fiber;
+  fiber.sections = 9;
+  fiber.nodes_per_section = 5;
+  fiber.blob = 0.004;
+  for (int i = 0; i < n_fibers; ++i) {
+    fiber.center = {0.001 * i, 0.02 * i, -0.013 * i};
+    fiber.direction = {1.0, 0.3 + 0.1 * i, 0.2};
+    scene.fibers.push_back(fiber);
+  }
+  choose(scene.time);
+  return scene;
+}
+
+struct FiberRun {
+  explicit FiberRun(const SceneConfig& scene)
+      : fibers(make_fibers(scene.fibers)),
+        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
+                 std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double)),
+        state{0.0, 0, to_device("position", make_surface_nodes(fibers))},
+        integrator(make_integrator(scene, fibers, dynamics)),
+        end(scene.time.end) {}
+
+  bool step() {
+    if (state.time >= end) return false;
+    integrator->advance(state, end);
+    return true;
+  }
+
+  std::string save() {
+    Checkpoint checkpoint;
+    MemorySaver saver(checkpoint);
+    visit_memory(saver, state);
+    integrator->visit_memory(saver);
+    return encode_checkpoint(checkpoint);
+  }
+
+  void restore(const std::string& bytes) {
+    const Checkpoint checkpoint = decode_checkpoint(bytes);
+    MemoryRestorer restorer(checkpoint);
+    visit_memory(restorer, state);
+    integrator->visit_memory(restorer);
+  }
+
+  std::vector<Fiber> fibers;
+  FiberDynamics dynamics;
+  State state;
+  std::unique_ptr<Integrator> integrator;
+  double end;
+};
+
+void expect_exact_restarts(const SceneConfig& scene, const int min_steps) {
+  std::vector<std::string> saved;
+  FiberRun unbroken(scene);
+  saved.push_back(unbroken.save());
+  while (unbroken.step()) saved.push_back(unbroken.save());
+  ASSERT_GT(static_cast<int>(saved.size()), min_steps);
+  // From every step to the next; then whatever follows is the same, too.
+  for (std::size_t step = 0; step + 1 < saved.size(); ++step) {
+    FiberRun resumed(scene);
+    resumed.restore(saved[step]);
+    ASSERT_TRUE(resumed.step());
+    ASSERT_TRUE(resumed.save() == saved[step + 1]) << "after step " << step;
+  }
+  // And all the way, once.
+  FiberRun resumed(scene);
+  resumed.restore(saved[saved.size() / 2]);
+  while (resumed.step()) {
+  }
+  EXPECT_TRUE(resumed.save() == saved.back());
+}
+
+TEST(Restart, OfRkc2IsExactAtEveryStep) {
+  for (const int n_fibers : {1, 3})
+    expect_exact_restarts(make_scene(n_fibers, [](TimeConfig& time) { time.end = 1.5, time.max_step = 0.02; }), 60);
+}
+
+TEST(Restart, OfRkc2WithAFixedStepIsExactAtEveryStep) {
+  expect_exact_restarts(make_scene(1, [](TimeConfig& time) { time.end = 0.9, time.step = 0.0113; }), 60);
+}
+
+TEST(Restart, OfEulerIsExactAtEveryStep) {
+  expect_exact_restarts(make_scene(1,
+                                   [](TimeConfig& time) {
+                                     time.method = "euler";
+                                     time.step = 1.1e-4;
+                                     time.end = 0.011;
+                                   }),
+                        90);
+}
+
+TEST(Restart, WithAnotherNumberOfNodesIsRefused) {
+  FiberRun one(make_scene(1, [](TimeConfig&) {})), two(make_scene(2, [](TimeConfig&) {}));
+  EXPECT_EQ(code_of([&] { two.restore(one.save()); }), ExitCode::damaged_data);
+}
+
+// Leaves a step in the middle, at any of its evaluations.
+class InterruptedDynamics final : public RightHandSide {
+ public:
+  struct Interrupted {};
+  explicit InterruptedDynamics(RightHandSide& dynamics) : dynamics_(dynamics) {}
+  void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
+    if (n_left-- == 0) throw Interrupted();
+    dynamics_.compute_velocity(time, position, velocity);
+  }
+  std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
+  std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  int n_left = -1;  ///< evaluations until it happens; none for a negative number
+
+ private:
+  RightHandSide& dynamics_;
+};
+
+TEST(Restart, OfAStepThatWasGivenUpIsExact) {
+  const SceneConfig scenes[] = {
+      make_scene(1, [](TimeConfig& time) { time.end = 1.0, time.max_step = 0.02; }),
+      make_scene(1, [](TimeConfig& time) { time.method = "euler", time.step = 1e-4, time.end = 0.01; })};
+  for (const SceneConfig& scene : scenes) {
+    FiberRun unbroken(scene), broken(scene);
+    InterruptedDynamics dynamics(broken.dynamics);
+    broken.integrator = make_integrator(scene, broken.fibers, dynamics);
+    int n_interruptions = 0;
+    for (int step = 0; step < 60 && unbroken.step(); ++step) {
+      const std::string before = broken.save();
+      dynamics.n_left = step % 7;
+      try {
+        broken.step();
+      } catch (const InterruptedDynamics::Interrupted&) {
+        ++n_interruptions;
+        // Before the first step there is nothing in its arrays that counts.
+        ASSERT_TRUE(step == 0 || broken.save() == before) << "step " << step;
+        dynamics.n_left = -1;
+        broken.step();
+      }
+      dynamics.n_left = -1;
+      ASSERT_TRUE(broken.save() == unbroken.save()) << "step " << step;
+    }
+    EXPECT_GT(n_interruptions, 5);
+  }
+}
+
+}  // namespace
+}  // namespace skein

@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <optional>
+#include <skein/io/atomic_file.hpp>
+#include <skein/io/run_lock.hpp>
+#include <string>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tests/unit/error_code.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
+namespace skein {
+namespace {
+
+RunFolder make_folder(const ScratchFolder& scratch) { return RunFolder::create(scratch.path() / "run", "", false); }
+
+// A process that takes the lock and keeps it until it is killed.
+pid_t start_owner(const RunFolder& folder) {
+  int ready[2];
+  if (::pipe(ready) != 0) return -1;
+  const pid_t process = ::fork();
+  if (process == 0) {
+    const RunLock lock(folder);
+    static_cast<void>(!::write(ready[1], "x", 1));
+    for (;;) ::pause();
+  }
+  char byte = 0;
+  static_cast<void>(!::read(ready[0], &byte, 1));
+  ::close(ready[0]);
+  ::close(ready[1]);
+  return process;
+}
+
+void kill_owner(const pid_t process) {
+  ::kill(process, SIGKILL);
+  ::waitpid(process, nullptr, 0);
+}
+
+TEST(RunLock, KeepsASecondWriterOut) {
+  const ScratchFolder scratch;
+  const RunFolder folder = make_folder(scratch);
+  const pid_t owner = start_owner(folder);
+  std::string message;
+  EXPECT_EQ(code_of([&] { RunLock second(folder); }, &message), ExitCode::cannot_create);
+  EXPECT_NE(message.find("process " + std::to_string(owner)), std::string::npos) << message;
+  kill_owner(owner);
+}
+
+TEST(RunLock, IsTakenOverFromADeadOne) {
+  const ScratchFolder scratch;
+  const RunFolder folder = make_folder(scratch);
+  kill_owner(start_owner(folder));
+  EXPECT_TRUE(std::filesystem::exists(folder.lock()));
+  const RunLock lock(folder);
+  EXPECT_TRUE(lock.was_left_behind());
+}
+
+TEST(RunLock, GoesWithItsOwner) {
+  const ScratchFolder scratch;
+  const RunFolder folder = make_folder(scratch);
+  for (int turn = 0; turn < 2; ++turn) {
+    const RunLock lock(folder);
+    EXPECT_FALSE(lock.was_left_behind());
+    EXPECT_EQ(code_of([&] { RunLock second(folder); }), ExitCode::cannot_create);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.lock()));
+}
+
+// The process number may have been given to another process since, or be of this very moment without the lock.
+TEST(RunLock, TellsALivingOwnerByItsBeginning) {
+  const ScratchFolder scratch;
+  const RunFolder folder = make_folder(scratch);
+  const pid_t owner = start_owner(folder);
+  const std::string text = read_file(folder.lock());
+  std::filesystem::remove(folder.lock());  // the system's lock goes with the file: its text alone is left
+  write_file_atomically(folder.lock(), text);
+  EXPECT_EQ(code_of([&] { RunLock second(folder); }), ExitCode::cannot_create);
+  const auto began = text.find("began ") + 6;
+  write_file_atomically(folder.lock(), text.substr(0, began) + "9" + text.substr(began));
+  EXPECT_EQ(code_of([&] { RunLock second(folder); }), ExitCode::done);
+  kill_owner(owner);
+}
+
+TEST(RunLock, OfAnotherHostIsLeftToTheUser) {
+  const ScratchFolder scratch;
+  const RunFolder folder = make_folder(scratch);
+  write_file_atomically(folder.lock(), "host elsewhere.example\nprocess 1\nbegan 1@1\n");
+  std::string message;
+  EXPECT_EQ(code_of([&] { RunLock lock(folder); }, &message), ExitCode::cannot_create);
+  EXPECT_NE(message.find("elsewhere.example"), std::string::npos);
+  EXPECT_NE(message.find("remove '" + folder.lock().string()), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder.lock()));
+}
+
+}  // namespace
+}  // namespace skein
