@@ -1,4 +1,5 @@
 #include <skein/hydro/direct_mobility.hpp>
+#include <skein/hydro/fmm_mobility.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -378,9 +379,30 @@ std::unique_ptr<Mobility> make_direct_in_single(const double viscosity) {
   return std::make_unique<DirectMobility>(viscosity, Precision::in_single);
 }
 
+/// Leaves small enough that these few nodes have a far field.
+std::unique_ptr<Mobility> make_fmm(const double viscosity, const double tolerance, const FarField far_field) {
+  FmmOptions options;
+  options.tolerance = tolerance;
+  options.far_field = far_field;
+  options.leaf_size = 6;
+  return std::make_unique<FmmMobility>(viscosity, options);
+}
+std::unique_ptr<Mobility> make_fmm_in_single(const double viscosity) {
+  return make_fmm(viscosity, 1e-5, FarField::harmonic);
+}
+std::unique_ptr<Mobility> make_fmm_in_double(const double viscosity) {
+  return make_fmm(viscosity, 3e-7, FarField::harmonic);
+}
+std::unique_ptr<Mobility> make_fmm_of_stokeslets(const double viscosity) {
+  return make_fmm(viscosity, 1e-3, FarField::stokeslet);
+}
+
 INSTANTIATE_TEST_SUITE_P(, MobilityProperties,
                          ::testing::Values(Row{"direct_in_double", make_direct_in_double, 1e-14},
-                                           Row{"direct_in_single", make_direct_in_single, 5e-6}),
+                                           Row{"direct_in_single", make_direct_in_single, 5e-6},
+                                           Row{"fmm_in_single", make_fmm_in_single, 3e-5},
+                                           Row{"fmm_in_double", make_fmm_in_double, 3e-6},
+                                           Row{"fmm_of_stokeslets", make_fmm_of_stokeslets, 1e-2}),
                          ::testing::PrintToStringParamName());
 
 }  // namespace

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <skein/hydro/direct_mobility.hpp>
+#include <skein/hydro/method_choice.hpp>
+#include <skein/hydro/mobility.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace skein {
+
+/// What the last evaluation met: for the cost card, the benchmarks and the tests.
+struct FmmStatistics {
+  FmmPlan plan;
+  int n_boxes = 0;
+  int n_levels = 0;
+  int n_leaves = 0;                  ///< with targets
+  double smallest_half_width = 0.0;  ///< of a leaf, length
+  FmmWork work;
+  bool used_direct_sum = false;  ///< the lists showed that it costs less, or the tolerance is out of reach
+  double memory_bytes = 0.0;     ///< of the tree, the nodes' copies, coefficients and operators
+  /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves.
+  double operators_seconds = 0.0, tree_seconds = 0.0, sort_seconds = 0.0, far_seconds = 0.0, leaf_seconds = 0.0;
+  double checked_error = -1.0;  ///< of the last check against direct sums, 2-norm, relative; -1: none yet
+  int n_checks = 0, n_misses = 0;
+  std::string last_miss;  ///< what the last miss was, for the user
+};
+
+/// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
+///
+/// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
+/// the approximations). The tree is rebuilt in every call, operators are kept. Runs on the host; device arrays are
+/// copied. Source: Ying, Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
+class FmmMobility final : public Mobility {
+ public:
+  /// @param viscosity  > 0, force * time / length^2
+  /// @throws Error(scene_error) where the options ask for what cannot be delivered.
+  FmmMobility(double viscosity, const FmmOptions& options);
+  ~FmmMobility() override;
+
+  /// @throws Error(scene_error) where a tolerance is out of reach for these blobs; Error(numerical) where a check finds
+  /// an error above the tolerance and the options say to stop.
+  void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  double pairs() const override { return pairs_; }
+  std::string describe() const override;
+
+  /// Relative error (2-norm) of one evaluation against direct sums at n_sample targets, evenly spread over the indices.
+  double measure_error(const Sources& sources, const ConstVectors& target, int n_sample);
+
+  const FmmStatistics& statistics() const;
+
+ private:
+  class Evaluator;
+
+  /// False where the direct sum did it.
+  bool add_unchecked(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
+  double compare(const Sources& sources, const ConstVectors& target, const ConstVectors& velocity, int n_sample);
+
+  double viscosity_;
+  FmmOptions options_;
+  DirectMobility direct_;
+  double pairs_ = 0.0;
+  std::int64_t n_evaluations_ = 0;
+  std::unique_ptr<Evaluator> evaluator_;
+};
+
+}  // namespace skein

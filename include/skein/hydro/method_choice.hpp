@@ -1,0 +1,80 @@
+#pragma once
+
+#include <string>
+
+namespace skein {
+
+/// How distant boxes see the blobs.
+enum class FarField {
+  harmonic,     ///< four harmonic potentials with the eps^2 doublet: error floor 0.011 (eps / half-width)^4
+  stokeslet,    ///< strengths of singular Stokeslets, matched to the field of the blobs: floor 0.1 (eps / half-width)^4
+  regularized,  ///< S_eps in every operator, one common eps: floor 0.05 (eps / half-width)^4
+};
+
+enum class FmmPrecision { automatic, in_double, in_single };
+
+enum class OnMiss {
+  raise_order,  ///< a measured error above the tolerance is reported and mended with the next order
+  stop,         ///< ... ends the run
+};
+
+/// What a user may ask of the fast multipole method; 0 leaves a choice to the tables.
+struct FmmOptions {
+  double tolerance = 1e-4;  ///< relative error of all velocities together (2-norm)
+  FarField far_field = FarField::harmonic;
+  int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16 (harmonic), 4 .. 12
+  int leaf_size = 0;            ///< nodes per leaf aimed at
+  double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
+  FmmPrecision precision = FmmPrecision::automatic;
+  bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
+  bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
+  double singular_cutoff = 0.0;      ///< of the surface operators, relative; a raised order has its own
+  int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks
+  int n_checked_targets = 64;
+  OnMiss on_miss = OnMiss::raise_order;
+};
+
+/// What an evaluation uses.
+struct FmmPlan {
+  int order = 6;
+  int rank = 121;  ///< about, of the operators
+  double singular_cutoff = 0.0;
+  int leaf_size = 64;           ///< along a line; a cloud's leaves hold more
+  double min_half_width = 0.0;  ///< length
+  bool near_in_single = false;  ///< allowed; see single_precision_error
+  bool far_in_single = false;
+  double expected_error = 0.0;  ///< bound from the table, for any arrangement of nodes
+};
+
+/// @throws Error(scene_error) where the options contradict each other or ask for what cannot be delivered.
+void check_fmm_options(const FmmOptions& options);
+
+/// The cheapest plan that meets the tolerance, from a table measured with perf/bench_fmm: the same on every machine, so
+/// that a run can be repeated.
+/// @param max_blob      the largest regularization length among the sources, length
+/// @param raised_order  an order that a check found necessary; 0: none
+/// @throws Error(scene_error) where none meets it, or where what is set by hand does not.
+FmmPlan choose_fmm_plan(const FmmOptions& options, double max_blob, int raised_order);
+
+/// True where no plan reaches the tolerance and only direct sums do.
+bool needs_direct_sum(const FmmOptions& options);
+
+/// Error between the nearest well-separated boxes that blobs cause in the harmonic far field: 0.011 (eps /
+/// half-width)^4.
+double harmonic_floor(double blob, double half_width);
+
+/// Bound of what single precision costs in the near field of leaves of this size.
+double single_precision_error(double min_blob, double half_width);
+
+/// Counts of an evaluation that set its cost.
+struct FmmWork {
+  double n_sources = 0.0, n_targets = 0.0;
+  double near_pairs = 0.0;  ///< of nodes
+  double far_pairs = 0.0;   ///< of boxes
+  double n_boxes = 0.0;
+};
+
+/// Time of an evaluation over that of a direct sum, from measured rates of pairs and products.
+double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool direct_is_symmetric);
+
+}  // namespace skein

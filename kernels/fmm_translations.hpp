@@ -1,0 +1,53 @@
+#pragma once
+
+#include "kernels/fmm_operator_set.hpp"
+#include "kernels/laplace.hpp"
+#include "kernels/octree.hpp"
+
+#include <vector>
+
+namespace skein {
+
+/// Nodes in the order of the tree.
+struct SortedNodes {
+  HostVectors position, force;  ///< [n_sources, 3]; forces carry the scale 1 / (8 pi viscosity)
+  HostScalars blob;
+  HostVectors target;  ///< [n_targets, 3]
+};
+
+/// Targets of one leaf, or some of them where it has many: one task of the near field.
+struct TargetTask {
+  int leaf = 0;  ///< index in Octree::target_leaves
+  Run targets;
+};
+
+inline constexpr int task_targets = 256;
+
+/// Cuts the leaves' targets into tasks.
+std::vector<TargetTask> make_target_tasks(const Octree& tree);
+
+/// Boxes above have no far pairs and need no coefficients.
+inline constexpr int first_far_level = 2;
+
+/// Coefficients of all boxes: [n_boxes][n_columns][stride].
+template <class Real>
+struct Coefficients {
+  Kokkos::View<Real*, HostSpace> source, target;
+  int stride = 0;    ///< of a column: the largest padded rank of all levels
+  int box_size = 0;  ///< n_columns * stride
+};
+
+/// The passes over the boxes: from the sources up, across, and down to leaf coefficients. Sums have a fixed order,
+/// every box's sum belongs to one task.
+/// @param levels  the operators of each level of the tree
+template <class Real, class Field>
+void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients);
+
+/// velocity(original index) += near field + far field of the coefficients, leaf by leaf.
+template <class Near, class Real, class Field>
+void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Field& field,
+                         const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
+                         const std::vector<TargetTask>& tasks, const HostVectors& velocity);
+
+}  // namespace skein

@@ -1,0 +1,347 @@
+// The fast multipole method against this project's direct sum in the same run: error against order, speed against
+// error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
+// and its lists count. Usage: bench_fmm [pair] [speed] [crossover] [uniform] [setup] [chart] [tiny]   (threads:
+// OMP_NUM_THREADS)
+
+#include <skein/core/runtime.hpp>
+#include <skein/hydro/direct_mobility.hpp>
+#include <skein/hydro/fmm_mobility.hpp>
+
+#include "harness.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <string>
+
+namespace {
+
+using namespace skein;
+
+constexpr double viscosity = 1.7;
+constexpr double radius = 0.005, spacing = 0.00173648, fiber_blob = 0.00225;
+constexpr int around = 18;
+
+/// A circle of surface nodes about `center`, in the plane of two unit vectors.
+void add_section(std::vector<Vec3>& nodes, const Vec3 center, const Vec3 one, const Vec3 other) {
+  for (int a = 0; a < around; ++a) {
+    const double angle = 2.0 * std::numbers::pi * a / around;
+    nodes.push_back(center + radius * std::cos(angle) * one + radius * std::sin(angle) * other);
+  }
+}
+
+std::vector<Vec3> make_straight(const int n_nodes) {
+  std::vector<Vec3> nodes;
+  for (int s = 0; s < n_nodes / around; ++s)
+    add_section(nodes, {(s - 0.5 * (n_nodes / around - 1)) * spacing, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0});
+  return nodes;
+}
+
+/// A planar Archimedean spiral whose arms are `pitch` apart.
+std::vector<Vec3> make_spiral(const int n_nodes) {
+  constexpr double pitch = 0.03, growth = pitch / (2.0 * std::numbers::pi);
+  std::vector<Vec3> nodes;
+  double angle = 2.0 * std::numbers::pi;
+  for (int s = 0; s < n_nodes / around; ++s) {
+    const double r = growth * angle, c = std::cos(angle), i = std::sin(angle);
+    const Vec3 along{growth * c - r * i, growth * i + r * c, 0.0};
+    const double speed = norm(along);
+    add_section(nodes, {r * c, r * i, 0.0}, {-along.y / speed, along.x / speed, 0.0}, {0.0, 0.0, 1.0});
+    angle += spacing / speed;
+  }
+  return nodes;
+}
+
+std::vector<Vec3> make_uniform(const int n_nodes) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<Vec3> nodes(static_cast<std::size_t>(n_nodes));
+  for (Vec3& node : nodes) node = {uniform(random), uniform(random), uniform(random)};
+  return nodes;
+}
+
+struct Case {
+  Case(const std::vector<Vec3>& nodes, const double blob_size)
+      : n(static_cast<int>(nodes.size())),
+        position(to_device("position", nodes)),
+        force("force", nodes.size()),
+        velocity("velocity", nodes.size()),
+        blob(to_device("blob", std::vector<double>(nodes.size(), blob_size))) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<Vec3> forces(nodes.size());
+    for (Vec3& f : forces) f = {uniform(random), uniform(random), uniform(random)};
+    force = to_device("force", forces);
+  }
+  Sources sources() const { return {position, force, blob}; }
+
+  /// A little, and not all alike.
+  void move_nodes() {
+    const Vectors x = position;
+    Kokkos::parallel_for(
+        "bench::move_nodes", Kokkos::RangePolicy<ExecSpace>(0, n), KOKKOS_LAMBDA(const int i) {
+          for (int c = 0; c < 3; ++c) x(i, c) += 1e-7 * ((i * (c + 2)) % 7 - 3);
+        });
+  }
+  void compute(Mobility& mobility) {
+    Kokkos::deep_copy(velocity, 0.0);
+    mobility.add_velocity(sources(), position, velocity);
+  }
+
+  int n;
+  Vectors position, force, velocity;
+  Scalars blob;
+};
+
+double relative_error(const std::vector<Vec3>& got, const std::vector<Vec3>& exact) {
+  double difference = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    difference += dot(got[i] - exact[i], got[i] - exact[i]);
+    size += dot(exact[i], exact[i]);
+  }
+  return std::sqrt(difference / size);
+}
+
+struct Outcome {
+  double seconds, direct_seconds, error;
+  FmmStatistics statistics;
+};
+
+/// Time of one evaluation and of one direct sum, taking turns; error of all targets, or of a sample where a direct sum
+/// would take too long.
+Outcome measure(Case& problem, const FmmOptions& options, const int repeats, const bool with_direct) {
+  FmmMobility fmm(viscosity, options);
+  DirectMobility direct(viscosity, Precision::in_double);
+  std::vector<std::function<void()>> bodies = {[&] {
+    problem.move_nodes();
+    problem.compute(fmm);
+  }};
+  if (with_direct)
+    bodies.push_back([&] {
+      problem.move_nodes();
+      problem.compute(direct);
+    });
+  const auto seconds = perf::median_seconds(repeats, bodies);
+  Outcome outcome{seconds[0], with_direct ? seconds[1] : 0.0, 0.0, {}};
+  if (with_direct) {
+    problem.compute(direct);
+    const auto exact = to_host(problem.velocity);
+    problem.compute(fmm);
+    outcome.error = relative_error(to_host(problem.velocity), exact);
+  } else {
+    outcome.error = fmm.measure_error(problem.sources(), problem.position, 300);
+  }
+  outcome.statistics = fmm.statistics();
+  return outcome;
+}
+
+/// Error between the nearest well-separated boxes: sources fill one, targets the next but one along x.
+double nearest_boxes_error(const FmmOptions& chosen, const double blob_over_half_width) {
+  constexpr int n = 200;
+  constexpr double half_width = 0.37;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(-0.9999, 0.9999), strength(-1.0, 1.0);
+  std::vector<Vec3> source, target, force;
+  for (int i = 0; i < n; ++i) {
+    source.push_back(half_width * Vec3{uniform(random), uniform(random), uniform(random)});
+    target.push_back(half_width * Vec3{4.0 + uniform(random), uniform(random), uniform(random)});
+    force.push_back({1.0 + strength(random), 0.5 + strength(random), strength(random) - 0.7});
+  }
+  // The corners pin the boxes.
+  // Cells fit the nodes' extent, or come in steps where operators depend on them.
+  const double pin = chosen.far_field == FarField::regularized ? 0.9999 : 1.0;
+  source[0] = half_width * Vec3{-pin, -0.9999, -0.9999};
+  target[0] = half_width * Vec3{4.0 + pin, 0.9999, 0.9999};
+  const Sources sources{to_device("position", source), to_device("force", force),
+                        to_device("blob", std::vector<double>(n, blob_over_half_width * half_width))};
+  const Vectors at = to_device("target", target), got("got", n), exact("exact", n);
+  FmmOptions options = chosen;
+  options.tolerance = 1.0;
+  options.leaf_size = 1;
+  options.min_half_width = half_width;
+  FmmMobility fmm(viscosity, options);
+  fmm.add_velocity(sources, at, got);
+  DirectMobility(viscosity, Precision::in_double).add_velocity(sources, at, exact);
+  if (fmm.statistics().work.near_pairs > 0.0 || fmm.statistics().work.far_pairs < 1.0) return -1.0;
+  return relative_error(to_host(got), to_host(exact));
+}
+
+void bench_nearest_boxes(const bool tiny) {
+  std::printf("\n# Nearest well-separated boxes: far_field,eps_over_h,p,cutoff,error,floor_law\n");
+  struct Field {
+    const char* name;
+    FarField field;
+    bool stokes_part_only;
+  };
+  for (const Field field :
+       {Field{"harmonic", FarField::harmonic, false}, Field{"stokeslet", FarField::stokeslet, false},
+        Field{"stokeslet_doublet", FarField::stokeslet, true}, Field{"regularized", FarField::regularized, false}})
+    for (const double ratio : {1e-4, 0.04, 0.1, 0.2, 0.4})
+      for (const int p : {4, 6, 8, 10, 12, 14, 16})
+        for (const double cutoff : {1e-15, 1e-12, 1e-9, 1e-6}) {
+          if (tiny && (p > 6 || cutoff > 1e-15)) continue;
+          if (field.field != FarField::harmonic && p > 12) continue;
+          FmmOptions options;
+          options.far_field = field.field;
+          options.stokes_part_only = field.stokes_part_only;
+          options.order = p;
+          options.singular_cutoff = cutoff;
+          options.precision = FmmPrecision::in_double;
+          std::printf("%s,%g,%d,%g,%.1e,%.1e\n", field.name, ratio, p, cutoff, nearest_boxes_error(options, ratio),
+                      harmonic_floor(ratio, 1.0));
+          std::fflush(stdout);
+        }
+}
+
+void print_outcome(const char* shape, const Case& problem, const double tolerance, const Outcome& outcome) {
+  const FmmStatistics& s = outcome.statistics;
+  std::printf("%s,%d,%g,%d,%s,%.4f,%.4f,%.1f,%.1e,%.3e,%.0f,%d,%.3g,%.0f,%.0f,%.2f,%.2f,%.2f,%.2f\n", shape, problem.n,
+              tolerance, s.plan.order,
+              s.plan.far_in_single ? s.plan.near_in_single ? "single" : "far_single" : "double", 1e3 * outcome.seconds,
+              1e3 * outcome.direct_seconds, outcome.direct_seconds / outcome.seconds, outcome.error,
+              problem.n / outcome.seconds, s.memory_bytes / problem.n, s.n_leaves, s.smallest_half_width,
+              s.work.near_pairs / problem.n, s.work.far_pairs, 1e3 * s.tree_seconds, 1e3 * s.sort_seconds,
+              1e3 * s.far_seconds, 1e3 * s.leaf_seconds);
+  std::fflush(stdout);
+}
+
+constexpr const char* outcome_header =
+    "shape,nodes,tolerance,p,precision,fmm_ms,direct_ms,ratio,error,points_per_second,bytes_per_node,leaves,half_width,"
+    "near_per_node,far_pairs,tree_ms,sort_ms,far_ms,leaf_ms";
+
+void bench_speed(const bool tiny) {
+  std::printf("\n# Speed against error\n%s\n", outcome_header);
+  const int n = tiny ? 3600 : 23634;
+  for (const auto& [shape, nodes] : {std::pair{"straight", make_straight(n)}, std::pair{"spiral", make_spiral(n)}}) {
+    Case problem(nodes, fiber_blob), fine(nodes, 2e-4);
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+      FmmOptions options;
+      options.tolerance = tolerance;
+      print_outcome(shape, problem, tolerance, measure(problem, options, tiny ? 1 : 7, true));
+    }
+    for (const double tolerance : {1e-7, 1e-8, 1e-9}) {
+      FmmOptions options;
+      options.tolerance = tolerance;
+      print_outcome((std::string(shape) + "_fine_blob").c_str(), fine, tolerance,
+                    measure(fine, options, tiny ? 1 : 5, true));
+    }
+  }
+}
+
+void bench_crossover() {
+  std::printf("\n# Crossover at 1e-4\n%s\n", outcome_header);
+  for (const int n : {720, 900, 1080, 1440, 2034, 2880, 4050, 5760})
+    for (const auto& [shape, nodes] : {std::pair{"straight", make_straight(n)}, std::pair{"spiral", make_spiral(n)},
+                                       std::pair{"uniform", make_uniform(n)}}) {
+      Case problem(nodes, shape[0] == 'u' ? 0.1 / std::cbrt(n) : fiber_blob);
+      print_outcome(shape, problem, 1e-4, measure(problem, {}, 21, true));
+    }
+}
+
+void bench_uniform(const bool tiny) {
+  std::printf("\n# Uniform cube\n%s\n", outcome_header);
+  for (const double tolerance : {1e-4, 1e-6})
+    for (const int n : {10000, 31623, 100000, 316228, 1000000}) {
+      if (tiny && n > 10000) continue;
+      Case problem(make_uniform(n), 0.1 / std::cbrt(n));
+      FmmOptions options;
+      options.tolerance = tolerance;
+      print_outcome("uniform", problem, tolerance, measure(problem, options, n > 300000 ? 1 : 3, n <= 31623));
+    }
+}
+
+/// From nothing to the first velocity, less a second evaluation: what a run pays once.
+void bench_setup(const bool tiny) {
+  std::printf("\n# Set-up, once per run\nshape,p,precision,operators_s\n");
+  for (const auto& [shape, nodes] :
+       {std::pair{"straight", make_straight(23634)}, std::pair{"uniform", make_uniform(50000)}})
+    for (const int p : {6, 8, 10, 12}) {
+      if (tiny && p > 6) continue;
+      for (const bool in_single : {true, false}) {
+        if (in_single && p > 9) continue;
+        FmmOptions options;
+        options.order = p;
+        options.tolerance = 1.0;
+        options.leaf_size = 60;
+        options.min_half_width = 0.006;
+        options.precision = in_single ? FmmPrecision::in_single : FmmPrecision::in_double;
+        if (!in_single) options.singular_cutoff = 1e-15;
+        FmmMobility fmm(viscosity, options);
+        Case problem(nodes, 1e-4);
+        problem.compute(fmm);
+        std::printf("%s,%d,%s,%.3f\n", shape, p, in_single ? "single" : "double", fmm.statistics().operators_seconds);
+        std::fflush(stdout);
+      }
+    }
+}
+
+/// Time against error for the chart: every order, three far fields, and the direct sums.
+void bench_chart(const bool tiny) {
+  std::printf("\n# Chart\nshape,nodes,method,p,ms,error\n");
+  for (const int n : {1440, 5760, 23634, 90000}) {
+    if (tiny && n > 1440) continue;
+    Case problem(make_straight(n), fiber_blob);
+    DirectMobility direct(viscosity, Precision::in_double), direct_single(viscosity, Precision::in_single);
+    const int repeats = n < 10000 ? 9 : n < 50000 ? 3 : 1;
+    const auto seconds = perf::median_seconds(
+        repeats,
+        std::vector<std::function<void()>>{[&] { problem.compute(direct); }, [&] { problem.compute(direct_single); }});
+    problem.compute(direct);
+    const auto exact = to_host(problem.velocity);
+    problem.compute(direct_single);
+    std::printf("straight,%d,direct_double,0,%.4f,1e-15\n", n, 1e3 * seconds[0]);
+    std::printf("straight,%d,direct_single,0,%.4f,%.2e\n", n, 1e3 * seconds[1],
+                relative_error(to_host(problem.velocity), exact));
+    for (const FarField field : {FarField::harmonic, FarField::stokeslet, FarField::regularized})
+      for (int p = 4; p <= 14; ++p) {
+        if (field != FarField::harmonic && (p > 10 || p % 2 == 1)) continue;
+        if (tiny && p > 5) continue;
+        FmmOptions options;
+        options.far_field = field;
+        // The leaf that balances the blobs' part of the error with the order's.
+        FmmOptions harmonic;
+        harmonic.tolerance = 1.0;
+        harmonic.order = p;
+        harmonic.precision = FmmPrecision::in_double;  // the order's own error
+        const double error = choose_fmm_plan(harmonic, 0.0, 0).expected_error;
+        options.order = p;
+        options.tolerance = field == FarField::harmonic ? std::max(error, 5e-11) : 1.0;
+        if (field != FarField::harmonic) options.min_half_width = fiber_blob * std::pow(0.011 / error, 0.25);
+        if (options.min_half_width > 0.6 || fiber_blob * std::pow(0.011 / error, 0.25) > n * spacing / 72) continue;
+        FmmMobility fmm(viscosity, options);
+        const auto time =
+            perf::median_seconds(repeats, std::vector<std::function<void()>>{[&] { problem.compute(fmm); }});
+        problem.compute(fmm);
+        std::printf("straight,%d,%s,%d,%.4f,%.2e\n", n,
+                    field == FarField::harmonic    ? "fmm_harmonic"
+                    : field == FarField::stokeslet ? "fmm_stokeslet"
+                                                   : "fmm_regularized",
+                    p, 1e3 * time[0], relative_error(to_host(problem.velocity), exact));
+        std::fflush(stdout);
+      }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const Runtime runtime;
+  perf::print_context();
+  const std::vector<std::string> parts(argv + 1, argv + argc);
+  const auto asked = [&](const char* part) {
+    const bool tiny_only = parts.size() == 1 && parts.front() == "tiny";
+    return parts.empty() || tiny_only || std::find(parts.begin(), parts.end(), part) != parts.end();
+  };
+  const bool tiny = std::find(parts.begin(), parts.end(), "tiny") != parts.end();
+  if (asked("pair")) bench_nearest_boxes(tiny);
+  if (asked("speed")) bench_speed(tiny);
+  if (asked("crossover") && !tiny) bench_crossover();
+  if (asked("uniform")) bench_uniform(tiny);
+  if (asked("setup")) bench_setup(tiny);
+  if (asked("chart")) bench_chart(tiny);
+  return 0;
+}

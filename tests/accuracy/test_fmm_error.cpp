@@ -1,0 +1,369 @@
+#include <skein/core/error.hpp>
+#include <skein/hydro/direct_mobility.hpp>
+#include <skein/hydro/fmm_mobility.hpp>
+
+#include <gtest/gtest.h>
+
+#include "tests/reference/point_cloud.hpp"
+#include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace skein {
+namespace {
+
+using reference::Cloud;
+using reference::PointForces;
+using reference::Random;
+
+constexpr double viscosity = 0.7;
+constexpr double radius = 0.005, spacing = 0.00173648, fiber_blob = 0.00225;
+
+Sources on_device(const PointForces& from) {
+  return {to_device("position", from.position), to_device("force", from.force), to_device("blob", from.blob)};
+}
+
+/// Relative error, 2-norm over all targets: what the tolerance bounds.
+double error_of(const std::vector<Vec3>& got, const std::vector<Vec3>& exact) {
+  double difference = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    difference += dot(got[i] - exact[i], got[i] - exact[i]);
+    size += dot(exact[i], exact[i]);
+  }
+  return std::sqrt(difference / size);
+}
+
+/// @param target  empty: the sources' own array
+struct Result {
+  double error;
+  FmmStatistics statistics;
+};
+Result compare_with_direct(const PointForces& from, const std::vector<Vec3>& target, const FmmOptions& options) {
+  const Sources sources = on_device(from);
+  const Vectors at = target.empty() ? Vectors() : to_device("target", target);
+  const ConstVectors targets = target.empty() ? sources.position : ConstVectors(at);
+  const Vectors got("got", targets.extent(0)), exact("exact", targets.extent(0));
+  FmmMobility fmm(viscosity, options);
+  fmm.add_velocity(sources, targets, got);
+  DirectMobility(viscosity, Precision::in_double).add_velocity(sources, targets, exact);
+  return {error_of(to_host(got), to_host(exact)), fmm.statistics()};
+}
+
+void add_section(std::vector<Vec3>& nodes, const Vec3 center, const Vec3 one, const Vec3 other) {
+  for (int a = 0; a < 18; ++a) {
+    const double angle = 2.0 * std::numbers::pi * a / 18;
+    nodes.push_back(center + radius * std::cos(angle) * one + radius * std::sin(angle) * other);
+  }
+}
+std::vector<Vec3> make_tube(const int sections) {
+  std::vector<Vec3> nodes;
+  for (int s = 0; s < sections; ++s) add_section(nodes, {s * spacing, 0.0, 0.0}, {0, 1, 0}, {0, 0, 1});
+  return nodes;
+}
+std::vector<Vec3> make_spiral(const int sections) {
+  constexpr double growth = 0.03 / (2.0 * std::numbers::pi);
+  std::vector<Vec3> nodes;
+  double angle = 2.0 * std::numbers::pi;
+  for (int s = 0; s < sections; ++s) {
+    const double r = growth * angle;
+    const Vec3 along{growth * std::cos(angle) - r * std::sin(angle), growth * std::sin(angle) + r * std::cos(angle),
+                     0.0};
+    add_section(nodes, {r * std::cos(angle), r * std::sin(angle), 0.0}, Vec3{-along.y, along.x, 0.0} / norm(along),
+                {0, 0, 1});
+    angle += spacing / norm(along);
+  }
+  return nodes;
+}
+
+PointForces with_forces(const std::vector<Vec3>& nodes, const double blob, const std::uint64_t seed) {
+  Random random(seed);
+  return {nodes, reference::make_random_vectors(static_cast<int>(nodes.size()), 1.3, random),
+          std::vector<double>(nodes.size(), blob)};
+}
+
+/// Error between the nearest well-separated boxes: sources fill one, targets the next but one.
+double nearest_boxes_error(const int order, const double blob_over_half_width, const double cutoff,
+                           const FarField far_field, const bool stokes_part_only) {
+  constexpr double half_width = 0.37;
+  Random random(5);
+  PointForces from;
+  std::vector<Vec3> target;
+  for (int i = 0; i < 200; ++i) {
+    from.position.push_back(half_width * random.in_cube(0.9999));
+    target.push_back(half_width * (Vec3{4.0, 0.0, 0.0} + random.in_cube(0.9999)));
+    from.force.push_back(Vec3{1.0, 0.5, -0.7} + random.in_cube(1.0));
+    from.blob.push_back(blob_over_half_width * half_width);
+  }
+  // Cells fit the nodes' extent, or come in steps where operators depend on them.
+  const double pin = far_field == FarField::regularized ? 0.9999 : 1.0;
+  from.position[0] = half_width * Vec3{-pin, -0.9999, -0.9999};  // the corners pin the boxes
+  target[0] = half_width * Vec3{4.0 + pin, 0.9999, 0.9999};
+  FmmOptions options;
+  options.far_field = far_field;
+  options.stokes_part_only = stokes_part_only;
+  options.tolerance = 1.0;
+  options.order = order;
+  options.singular_cutoff = cutoff;
+  options.leaf_size = 1;
+  options.min_half_width = half_width;
+  options.precision = FmmPrecision::in_double;
+  const Result result = compare_with_direct(from, target, options);
+  EXPECT_EQ(result.statistics.work.near_pairs, 0.0);
+  EXPECT_EQ(result.statistics.work.far_pairs, 1.0);
+  return result.error;
+}
+
+// Measured with another program (backward-stable pseudo-inverse, forces and places of its own): orders of magnitude.
+TEST(FmmError, FallsWithTheOrderAsMeasuredElsewhere) {
+  const std::pair<int, double> measured[] = {{4, 2.0e-3},  {6, 4.9e-5},  {8, 1.4e-6},
+                                             {10, 9.8e-8}, {12, 1.8e-9}, {14, 1.0e-10}};
+  for (const auto& [order, error] : measured) {
+    const double got = nearest_boxes_error(order, 1e-4, 1e-15, FarField::harmonic, false);
+    EXPECT_LT(got, 3.0 * error) << "order " << order;
+    EXPECT_GT(got, error / 30.0) << "order " << order;
+  }
+}
+
+TEST(FmmError, BlobsLeaveAFloorOfTheFourthPower) {
+  for (const double ratio : {0.04, 0.1, 0.2, 0.4}) {
+    const double got = nearest_boxes_error(14, ratio, 1e-15, FarField::harmonic, false);
+    EXPECT_LT(got, 2.0 * harmonic_floor(ratio, 1.0)) << ratio;
+    EXPECT_GT(got, 0.25 * harmonic_floor(ratio, 1.0)) << ratio;
+  }
+}
+
+TEST(FmmError, StokesletsAmplifyBlobsUnlessCutOff) {
+  const double uncut = nearest_boxes_error(10, 0.2, 1e-15, FarField::stokeslet, false);
+  EXPECT_GT(uncut, 3e-4);
+  EXPECT_LT(nearest_boxes_error(10, 0.2, 1e-9, FarField::stokeslet, false), 1e-5);
+  EXPECT_LT(nearest_boxes_error(10, 0.2, 1e-15, FarField::stokeslet, true), 5e-5);
+  EXPECT_LT(nearest_boxes_error(10, 0.2, 1e-9, FarField::regularized, false), 5e-6);
+}
+
+TEST(FmmError, StaysWithinTheToleranceOnFibersAndClouds) {
+  Random random(8);
+  const std::pair<const char*, std::vector<Vec3>> shapes[] = {
+      {"tube", make_tube(200)},
+      {"spiral", make_spiral(200)},
+      {"cube", reference::make_cloud(Cloud::cube, 4000, {5.0, -2.0, 1.0}, 0.08, random)}};
+  for (const auto& [name, nodes] : shapes)
+    for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-9}) {
+      FmmOptions options;
+      options.tolerance = tolerance;
+      options.leaf_size = 30;  // small enough for a far field
+      const double blob = tolerance < 1e-4 ? 1e-4 : fiber_blob;
+      const Result result = compare_with_direct(with_forces(nodes, blob, 3), {}, options);
+      EXPECT_LT(result.error, tolerance) << name;
+      EXPECT_TRUE(tolerance == 1e-2 || result.statistics.work.far_pairs > 0.0) << name << tolerance;
+    }
+}
+
+TEST(FmmError, EveryFarFieldKeepsItsPromise) {
+  for (const FarField far_field : {FarField::harmonic, FarField::stokeslet, FarField::regularized})
+    for (const double tolerance : {1e-2, 1e-3}) {
+      FmmOptions options;
+      options.far_field = far_field;
+      options.tolerance = tolerance;
+      options.leaf_size = 30;
+      EXPECT_LT(compare_with_direct(with_forces(make_spiral(200), 5e-4, 4), {}, options).error, tolerance)
+          << static_cast<int>(far_field);
+    }
+}
+
+TEST(FmmError, TargetsMayDifferFromSources) {
+  Random random(9);
+  PointForces from = with_forces(make_tube(200), 3e-4, 5);
+  std::vector<Vec3> target = reference::make_cloud(Cloud::cube, 1500, {0.1, 0.0, 0.0}, 0.2, random);
+  target.push_back({40.0, -3.0, 2.0});  // far outside
+  FmmOptions options;
+  options.tolerance = 1e-6;
+  options.leaf_size = 20;
+  EXPECT_LT(compare_with_direct(from, target, options).error, 1e-6);
+  from.position.resize(7);
+  from.force.resize(7);
+  from.blob.resize(7);
+  EXPECT_LT(compare_with_direct(from, target, options).error, 1e-6) << "few sources, many targets";
+  EXPECT_LT(
+      compare_with_direct(with_forces(make_tube(100), 3e-4, 5), {{0.05, 0.001, 0.0}, {0.3, 0.0, 0.0}}, options).error,
+      1e-6)
+      << "many sources, few targets";
+}
+
+TEST(FmmError, BlobsMayDiffer) {
+  Random random(10);
+  PointForces from = with_forces(make_spiral(200), 0.0, 5);
+  from.blob = reference::make_random_lengths(static_cast<int>(from.position.size()), 1e-6, 2e-3, random);
+  for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+    FmmOptions options;
+    options.tolerance = tolerance;
+    options.leaf_size = 20;
+    EXPECT_LT(compare_with_direct(from, {}, options).error, tolerance);
+  }
+  FmmOptions options;
+  options.far_field = FarField::regularized;
+  options.tolerance = 1e-2;
+  EXPECT_THROW(compare_with_direct(from, {}, options), Error) << "one blob for all is needed";
+}
+
+TEST(FmmError, DegenerateInputsAreRight) {
+  std::vector<Vec3> line, twice, powers;
+  for (int i = 0; i < 900; ++i) line.push_back({0.01 * i, 0.5, -0.25});
+  for (int i = 0; i < 900; ++i) twice.push_back({0.01 * (i / 3), 0.3 * ((i / 3) % 7), 0.0});
+  for (int i = 0; i < 600; ++i) powers.push_back({std::ldexp(1.0, -(i / 6)), 1.0, std::ldexp(1.0, -(i % 6))});
+  const std::vector<std::vector<Vec3>> inputs = {
+      std::vector<Vec3>(800, {0.1, 0.2, 0.3}), line,        twice, powers, {{1.0, 2.0, 3.0}},
+      {{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}},      make_tube(1)};
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    for (const double blob : {1e-12, 1e-5, 3e-3, 10.0})
+      for (const double tolerance : {1e-4, 1e-8}) {
+        FmmOptions options;
+        options.tolerance = tolerance;
+        options.leaf_size = 10;
+        EXPECT_LE(compare_with_direct(with_forces(inputs[k], blob, 6), {}, options).error, tolerance)
+            << "input " << k << ", blob " << blob;
+      }
+}
+
+/// Within the tolerance or refused, whatever the nodes and their blobs.
+void expect_no_silent_miss(const int n_cases, const std::uint64_t seed) {
+  Random random(seed);
+  int n_with_far_field = 0, n_refused = 0;
+  for (int k = 0; k < n_cases; ++k) {
+    const int n = static_cast<int>(random.log_uniform(20.0, 3000.0));
+    PointForces from;
+    std::vector<Vec3> nodes;
+    if (k % 6 == 5)
+      nodes = make_spiral(math::larger(1, n / 18));
+    else if (k % 6 == 4)
+      nodes.assign(static_cast<std::size_t>(n), {0.2, 0.1, -0.4});
+    else
+      nodes = reference::make_cloud(reference::all_clouds[k % 4], n, random.in_cube(2.0), 1.0, random);
+    if (k % 7 == 0)
+      nodes.insert(nodes.end(), nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(nodes.size() / 2));
+    const double cell = 1.0 / std::cbrt(nodes.size() / 20.0);
+    from = with_forces(nodes, cell * random.log_uniform(1e-4, 10.0), random.bits());
+    if (k % 3 == 0)
+      for (Vec3& f : from.force) f = f + Vec3{3.0, 0.0, 1.0};
+    FmmOptions options;
+    options.tolerance = random.log_uniform(1e-11, 1e-2);
+    options.leaf_size = 1 + static_cast<int>(random.uniform(0.0, 60.0));
+    if (k % 5 == 0) options.precision = FmmPrecision::in_double;
+    try {
+      const Result result = compare_with_direct(from, {}, options);
+      EXPECT_LE(result.error, options.tolerance)
+          << "case " << k << ": " << nodes.size() << " nodes, order " << result.statistics.plan.order;
+      n_with_far_field += result.statistics.work.far_pairs > 0.0;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::scene_error) << error.what();
+      ++n_refused;
+    }
+  }
+  EXPECT_GT(n_with_far_field, n_cases / 6);
+  EXPECT_LT(n_refused, n_cases / 4);
+}
+TEST(FmmError, NeverMissesSilently) { expect_no_silent_miss(20, 7); }
+TEST(FmmErrorSlow, NeverMissesSilently) { expect_no_silent_miss(200, 2026); }
+
+TEST(FmmOptionsCheck, RefusesWhatCannotBeDelivered) {
+  const auto refused = [](const auto& change) {
+    FmmOptions options;
+    change(options);
+    try {
+      FmmMobility fmm(viscosity, options);
+      const Sources sources = on_device(with_forces(make_tube(60), fiber_blob, 1));
+      fmm.add_velocity(sources, sources.position, Vectors("velocity", sources.position.extent(0)));
+    } catch (const Error& error) {
+      return error.code() == ExitCode::scene_error;
+    }
+    return false;
+  };
+  EXPECT_FALSE(refused([](FmmOptions&) {}));
+  EXPECT_TRUE(refused([](FmmOptions& o) { o.tolerance = 1e-14; }));
+  EXPECT_TRUE(refused([](FmmOptions& o) { o.tolerance = 0.0; }));
+  EXPECT_TRUE(refused([](FmmOptions& o) { o.tolerance = std::nan(""); }));
+  EXPECT_TRUE(refused([](FmmOptions& o) { o.order = 2; }));
+  EXPECT_TRUE(refused([](FmmOptions& o) {
+    o.order = 4;
+    o.tolerance = 1e-6;
+  }));
+  EXPECT_TRUE(refused([](FmmOptions& o) { o.min_half_width = 0.002; })) << "below the floor law";
+  EXPECT_TRUE(refused([](FmmOptions& o) {
+    o.precision = FmmPrecision::in_single;
+    o.tolerance = 1e-8;
+  }));
+  EXPECT_TRUE(refused([](FmmOptions& o) { o.leaf_size = -1; }));
+}
+
+TEST(FmmCheck, MeasuresTheErrorAndMendsOrStops) {
+  const PointForces from = with_forces(make_tube(300), 1e-5, 12);
+  const Sources sources = on_device(from);
+  FmmOptions options;
+  options.tolerance = 1e-5;
+  options.check_every = 2;
+  options.leaf_size = 30;
+  const Vectors velocity("velocity", from.position.size()), exact("exact", from.position.size());
+  DirectMobility(viscosity, Precision::in_double).add_velocity(sources, sources.position, exact);
+  FmmMobility good(viscosity, options);
+  good.add_velocity(sources, sources.position, velocity);
+  good.add_velocity(sources, sources.position, velocity);
+  good.add_velocity(sources, sources.position, velocity);
+  EXPECT_EQ(good.statistics().n_checks, 2);
+  EXPECT_EQ(good.statistics().n_misses, 0);
+  const double all = [&] {
+    auto got = to_host(velocity);
+    for (Vec3& u : got) u = u / 3.0;  // accumulated three times
+    return error_of(got, to_host(exact));
+  }();
+  EXPECT_LT(good.statistics().checked_error, 3.0 * all);
+  EXPECT_GT(good.statistics().checked_error, all / 3.0);
+
+  // Operators cut far too short miss on purpose.
+  options.singular_cutoff = 1e-2;
+  options.on_miss = OnMiss::stop;
+  FmmMobility bad(viscosity, options);
+  try {
+    bad.add_velocity(sources, sources.position, velocity);
+    FAIL() << "a miss went unseen";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::numerical);
+  }
+  EXPECT_EQ(bad.statistics().n_misses, 1);
+}
+
+TEST(FmmCheck, RaisesTheOrderAndLeavesNothingOfTheMissInTheSum) {
+  PointForces from = with_forces(make_tube(300), 1e-5, 12);
+  from.force.assign(from.force.size(), {1.0, 0.3, -0.2});  // far fields that add up
+  const Sources sources = on_device(from);
+  const Vectors velocity("velocity", from.position.size()), exact("exact", from.position.size());
+  FmmOptions options;
+  options.tolerance = 3e-3;
+  options.order = 4;
+  options.leaf_size = 30;
+  options.singular_cutoff = 0.5;  // cut far too short, until the order is raised
+  options.check_every = 1;
+  FmmMobility fmm(viscosity, options);
+  fmm.add_velocity(sources, sources.position, velocity);
+  DirectMobility(viscosity, Precision::in_double).add_velocity(sources, sources.position, exact);
+  EXPECT_GE(fmm.statistics().n_misses, 1);
+  EXPECT_GT(fmm.statistics().plan.order, 4);
+  EXPECT_FALSE(fmm.statistics().last_miss.empty());
+  EXPECT_LT(error_of(to_host(velocity), to_host(exact)), options.tolerance);
+  const int n_misses = fmm.statistics().n_misses;
+  fmm.add_velocity(sources, sources.position, velocity);
+  EXPECT_EQ(fmm.statistics().n_misses, n_misses) << "the raised order is kept";
+}
+
+TEST(FmmCheck, ChoosesTheDirectSumWhereItIsCheaper) {
+  FmmOptions options;
+  options.direct_when_cheaper = true;
+  EXPECT_TRUE(compare_with_direct(with_forces(make_tube(20), fiber_blob, 1), {}, options).statistics.used_direct_sum);
+  EXPECT_FALSE(compare_with_direct(with_forces(make_tube(300), fiber_blob, 1), {}, options).statistics.used_direct_sum);
+  options.tolerance = 1e-15;
+  const Result result = compare_with_direct(with_forces(make_tube(300), fiber_blob, 1), {}, options);
+  EXPECT_TRUE(result.statistics.used_direct_sum);
+  EXPECT_EQ(result.error, 0.0);
+}
+
+}  // namespace
+}  // namespace skein

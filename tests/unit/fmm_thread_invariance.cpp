@@ -1,0 +1,55 @@
+#include <skein/core/runtime.hpp>
+#include <skein/hydro/fmm_mobility.hpp>
+
+#include "tests/reference/point_cloud.hpp"
+
+#include <cstdint>
+#include <cstdio>
+
+// Prints a hash of every velocity's bits, for compare_thread_counts.cmake. The first line says how many threads there
+// were.
+
+namespace skein {
+namespace {
+
+/// FNV-1a over bytes.
+std::uint64_t hash_of(const std::vector<Vec3>& velocity) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(velocity.data());
+  for (std::size_t i = 0; i < velocity.size() * sizeof(Vec3); ++i) hash = (hash ^ bytes[i]) * 0x100000001b3u;
+  return hash;
+}
+
+void print_hashes() {
+  std::printf("threads %d\n", HostSpace().concurrency());
+  for (const reference::Cloud cloud : reference::all_clouds)
+    for (const int n : {500, 20000})
+      for (const FmmPrecision precision : {FmmPrecision::in_double, FmmPrecision::in_single})
+        for (const FarField far_field : {FarField::harmonic, FarField::stokeslet}) {
+          if (far_field == FarField::stokeslet && n > 500) continue;
+          reference::Random random(4);
+          const Vectors position = to_device("position", reference::make_cloud(cloud, n, {0.3, 0.1, 2.0}, 1.0, random));
+          const Sources sources{position, to_device("force", reference::make_random_vectors(n, 1.3, random)),
+                                to_device("blob", reference::make_random_lengths(n, 1e-5, 1e-3, random))};
+          FmmOptions options;
+          options.precision = precision;
+          options.far_field = far_field;
+          options.tolerance = 1e-3;
+          options.leaf_size = 25;
+          FmmMobility fmm(1.7, options);
+          for (int repeat = 0; repeat < 2; ++repeat) {  // kept operators and buffers change nothing
+            const Vectors velocity("velocity", n);
+            fmm.add_velocity(sources, position, velocity);
+            std::printf("%s %d %d %d %016llx\n", reference::name_of(cloud).c_str(), n, static_cast<int>(precision),
+                        static_cast<int>(far_field), static_cast<unsigned long long>(hash_of(to_host(velocity))));
+          }
+        }
+}
+
+}  // namespace
+}  // namespace skein
+
+int main() {
+  const skein::Runtime runtime;
+  skein::print_hashes();
+}

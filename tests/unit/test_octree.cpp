@@ -1,0 +1,153 @@
+#include "kernels/octree.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/reference/point_cloud.hpp"
+#include "tests/unit/stokeslet_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace skein {
+namespace {
+
+using reference::Cloud;
+using reference::Random;
+
+OctreeRules rules_for(const int leaf_size, const double min_half_width, const int min_sources_for_expansion) {
+  OctreeRules rules;
+  rules.leaf_size = leaf_size;
+  rules.min_half_width = min_half_width;
+  rules.min_sources_for_expansion = min_sources_for_expansion;
+  return rules;
+}
+
+/// How many times the lists count each pair of a target and a source; 1 everywhere is right.
+std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int n_sources) {
+  std::vector<int> count(static_cast<std::size_t>(n_targets) * static_cast<std::size_t>(n_sources));
+  const auto& boxes = tree.boxes();
+  const auto add = [&](const Run targets, const Run sources) {
+    for (int t = 0; t < targets.count; ++t)
+      for (int s = 0; s < sources.count; ++s)
+        ++count[static_cast<std::size_t>(tree.target_order()(targets.first + t)) * static_cast<std::size_t>(n_sources) +
+                static_cast<std::size_t>(tree.source_order()(sources.first + s))];
+  };
+  for (std::size_t leaf = 0; leaf < tree.target_leaves().size(); ++leaf) {
+    const int l = static_cast<int>(leaf);
+    const Run targets = boxes[static_cast<std::size_t>(tree.target_leaves()[leaf])].targets;
+    for (const Run* run = tree.near_sources().begin(l); run != tree.near_sources().end(l); ++run) add(targets, *run);
+    for (const int* w = tree.fine_sources().begin(l); w != tree.fine_sources().end(l); ++w)
+      add(targets, boxes[static_cast<std::size_t>(*w)].sources);
+  }
+  for (int b = 0; b < static_cast<int>(boxes.size()); ++b) {
+    for (const FarPair* pair = tree.far_pairs().begin(b); pair != tree.far_pairs().end(b); ++pair)
+      add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(pair->source)].sources);
+    for (const int* x = tree.coarse_sources().begin(b); x != tree.coarse_sources().end(b); ++x)
+      add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(*x)].sources);
+  }
+  return count;
+}
+
+void expect_every_pair_once(const std::vector<Vec3>& source, const std::vector<Vec3>& target,
+                            const OctreeRules& rules) {
+  const HostVectors sources = make_host_vectors(source), targets = make_host_vectors(target);
+  Octree tree;
+  tree.build(sources, targets, rules);
+  const auto count = count_pairs(tree, static_cast<int>(target.size()), static_cast<int>(source.size()));
+  EXPECT_TRUE(std::all_of(count.begin(), count.end(), [](const int c) { return c == 1; }))
+      << *std::min_element(count.begin(), count.end()) << " .. " << *std::max_element(count.begin(), count.end());
+}
+
+TEST(Octree, ListsHoldEveryPairOnce) {
+  Random random(11);
+  for (const Cloud cloud : reference::all_clouds)
+    for (const int leaf_size : {1, 5, 40})
+      for (const int min_sources : {0, 8, 1000}) {
+        SCOPED_TRACE(reference::name_of(cloud) + " leaves of " + std::to_string(leaf_size));
+        const auto source = reference::make_cloud(cloud, 500, {3.0, -1.0, 0.4}, 0.7, random);
+        const auto target = reference::make_cloud(Cloud::cluster, 300, {3.1, -1.0, 0.4}, 0.5, random);
+        expect_every_pair_once(source, target, rules_for(leaf_size, 0.0, min_sources));
+        expect_every_pair_once(source, source, rules_for(leaf_size, 0.0, min_sources));
+      }
+}
+
+TEST(Octree, UsesEveryKindOfList) {
+  Random random(3);
+  auto nodes = reference::make_cloud(Cloud::cluster, 2000, {}, 1.0, random);
+  const auto even = reference::make_cloud(Cloud::cube, 1000, {}, 1.0, random);
+  nodes.insert(nodes.end(), even.begin(), even.end());
+  const HostVectors array = make_host_vectors(nodes);
+  Octree tree;
+  tree.build(array, array, rules_for(4, 0.0, 0));
+  EXPECT_GT(tree.far_pairs().entries.size(), 0u);
+  EXPECT_GT(tree.fine_sources().entries.size(), 0u);
+  EXPECT_GT(tree.coarse_sources().entries.size(), 0u);
+  EXPECT_GT(tree.near_sources().entries.size(), 0u);
+}
+
+TEST(Octree, BadInputMakesAFiniteTree) {
+  const OctreeRules rules = rules_for(2, 0.0, 10);
+  expect_every_pair_once({}, {}, rules);
+  expect_every_pair_once({{1.0, 2.0, 3.0}}, {{1.0, 2.0, 3.0}}, rules);
+  expect_every_pair_once({{1.0, 2.0, 3.0}}, {}, rules);
+  expect_every_pair_once(std::vector<Vec3>(100, {0.1, 0.2, 0.3}), std::vector<Vec3>(50, {0.1, 0.2, 0.3}), rules);
+  std::vector<Vec3> line, twice;
+  for (int i = 0; i < 200; ++i) line.push_back({0.01 * i, 0.0, 0.0});
+  for (int i = 0; i < 200; ++i) twice.push_back({std::ldexp(1.0, -(i / 2)), 1.0, 0.0});  // ever closer pairs
+  expect_every_pair_once(line, line, rules);
+  expect_every_pair_once(twice, twice, rules);
+  std::vector<Vec3> far = line;
+  far.push_back({1e12, -1e12, 1e12});
+  expect_every_pair_once(far, line, rules);
+  far.push_back({std::numeric_limits<double>::quiet_NaN(), 0.0, std::numeric_limits<double>::infinity()});
+  expect_every_pair_once(far, line, rules);
+}
+
+TEST(Octree, NoLeafIsSmallerThanAllowed) {
+  Random random(5);
+  for (const Cloud cloud : reference::all_clouds)
+    for (const double min_half_width : {0.5, 0.21}) {
+      const HostVectors nodes = make_host_vectors(reference::make_cloud(cloud, 2000, {1.0, 0.0, 0.0}, 1.0, random));
+      Octree tree;
+      tree.build(nodes, nodes, rules_for(1, min_half_width, 0));
+      EXPECT_GE(tree.half_width(tree.n_levels() - 1), min_half_width * (1.0 - 1e-12));
+      // ... and crowded leaves go as far down as they may.
+      EXPECT_LT(tree.half_width(tree.n_levels() - 1), 2.0 * min_half_width) << reference::name_of(cloud);
+    }
+}
+
+TEST(Octree, NodesLieInTheirBoxes) {
+  Random random(6);
+  const auto nodes = reference::make_cloud(Cloud::cluster, 3000, {0.2, 5.0, -1.0}, 0.3, random);
+  const HostVectors array = make_host_vectors(nodes);
+  Octree tree;
+  tree.build(array, array, rules_for(7, 0.0, 0));
+  for (const Box& box : tree.boxes()) {
+    const Vec3 center = tree.center(box);
+    const double reach = tree.half_width(box.level) * (1.0 + 1e-9);
+    for (int i = 0; i < box.sources.count; ++i) {
+      const Vec3 d = nodes[static_cast<std::size_t>(tree.source_order()(box.sources.first + i))] - center;
+      EXPECT_LE(std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}), reach);
+    }
+  }
+}
+
+TEST(Octree, AStraightFiberLiesInOneRowOfCells) {
+  std::vector<Vec3> nodes;
+  for (int s = 0; s < 500; ++s)
+    for (int a = 0; a < 18; ++a)
+      nodes.push_back({0.00173648 * s, 0.005 * std::cos(a * 0.349066), 0.005 * std::sin(a * 0.349066)});
+  const HostVectors array = make_host_vectors(nodes);
+  Octree tree;
+  tree.build(array, array, rules_for(60, 0.0073, 0));
+  const skein::Run leaves = tree.level(tree.n_levels() - 1);
+  const auto& boxes = tree.boxes();
+  for (int b = leaves.first; b < leaves.first + leaves.count; ++b)
+    for (int c = 1; c < 3; ++c)
+      EXPECT_EQ(boxes[static_cast<std::size_t>(b)].cell[c], boxes[static_cast<std::size_t>(leaves.first)].cell[c]);
+  EXPECT_LE(tree.near_sources().entries.size(), tree.target_leaves().size());  // neighbours form one run
+}
+
+}  // namespace
+}  // namespace skein
