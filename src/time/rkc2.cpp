@@ -85,6 +85,13 @@ double Rkc2::first_step(const double time) {
 /// rejections, without a smaller error (L = 0.139 orbit).
 double Rkc2::shortest_accounting_time() const { return 7.5 * std::sqrt(options_.tolerance) * options_.time_scale; }
 
+/// A fiber along the flow turns slowly, and what it is off by then grows with the square of its aspect ratio until it
+/// flips: no local estimate sees that. The bound makes the error at the end fall with the tolerance (L = 0.139 orbit at
+/// t = 6: 2.3e-4 L with steps up to 0.1, as the square of the bound).
+double Rkc2::largest_step() const {
+  return std::min(options_.max_step, 12.0 * std::sqrt(options_.tolerance) * options_.time_scale);
+}
+
 /// One step from start_ to end_ with the velocity there, both left in the members, and its error.
 Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   const int stages = stages_for(dt, spectral_radius_);
@@ -195,7 +202,7 @@ StepReport Rkc2::take_step(State& state, const double end) {
   const double left = end - state.time;
   StepReport report;
   std::string fault;
-  double dt = options_.fixed_step > 0.0 ? options_.fixed_step : std::min(next_dt_, options_.max_step);
+  double dt = options_.fixed_step > 0.0 ? options_.fixed_step : std::min(next_dt_, largest_step());
   if (options_.fixed_step <= 0.0 && spectral_radius_ > 0.0)
     dt = std::min(dt, static_cast<double>(max_stages) * max_stages / (1.6 * spectral_radius_));
   for (;;) {

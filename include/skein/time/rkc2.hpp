@@ -46,6 +46,7 @@ class Rkc2 final : public Integrator {
   std::string find_velocity_fault();
   double first_step(double time);
   double shortest_accounting_time() const;
+  double largest_step() const;
 
   RightHandSide& rhs_;
   Rkc2Options options_;
