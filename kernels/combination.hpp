@@ -2,6 +2,8 @@
 
 #include <skein/core/types.hpp>
 
+#include <cmath>
+
 namespace skein {
 
 /// One term of a linear combination of arrays [n, 3].
@@ -24,5 +26,11 @@ void combine(const Space& space, const VectorView<Space>& result, const Term<Spa
 /// a . b over all components; the order of the sum does not depend on threads. Waits for the device.
 template <class Space>
 double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b);
+
+/// Over nodes, of the vectors' lengths; the order of the sum is that of dot_product.
+template <class Space>
+double root_mean_square(const Space& space, const ConstVectorView<Space>& vectors) {
+  return std::sqrt(dot_product<Space>(space, vectors, vectors) / static_cast<double>(vectors.extent(0)));
+}
 
 }  // namespace skein

@@ -26,10 +26,6 @@ Vectors make_vectors(const char* label, const int n_nodes) {
   return Vectors(std::string("skein::Rkc2::") + label, static_cast<std::size_t>(n_nodes));
 }
 
-double root_mean_square(const ConstVectors& vectors) {
-  return std::sqrt(dot_product<ExecSpace>(ExecSpace(), vectors, vectors) / static_cast<double>(vectors.extent(0)));
-}
-
 }  // namespace
 
 Rkc2::Rkc2(RightHandSide& rhs, const Rkc2Options& options, const int n_nodes)
@@ -75,7 +71,7 @@ double Rkc2::first_step(const double time) {
   combine<ExecSpace>(ExecSpace(), stage_[0], {1.0, end_}, {probe, end_velocity_});
   rhs_.compute_velocity(time + probe, stage_[0], stage_velocity_);
   combine<ExecSpace>(ExecSpace(), error_, {1.0, stage_velocity_}, {-1.0, end_velocity_});
-  const double error = root_mean_square(error_) / (options_.tolerance * options_.length_scale);
+  const double error = root_mean_square<ExecSpace>(ExecSpace(), error_) / (options_.tolerance * options_.length_scale);
   return std::min(options_.max_step, error > 0.01 ? 0.1 * probe / error : 10.0 * probe);
 }
 
@@ -139,7 +135,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   rhs_.compute_velocity(time + dt, end_, end_velocity_);
   combine<ExecSpace>(ExecSpace(), error_, {0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_},
                      {0.4 * dt, end_velocity_});
-  return {root_mean_square(error_) /
+  return {root_mean_square<ExecSpace>(ExecSpace(), error_) /
               (options_.tolerance * options_.length_scale * std::max(dt, shortest_accounting_time())),
           stages};
 }

@@ -9,10 +9,6 @@
 namespace skein {
 namespace {
 
-double root_mean_square(const ConstVectors& vectors) {
-  return std::sqrt(dot_product<ExecSpace>(ExecSpace(), vectors, vectors) / static_cast<double>(vectors.extent(0)));
-}
-
 /// Node-to-node noise: rich in the short waves that the largest eigenvalues belong to.
 std::vector<Vec3> make_noise(const int n_nodes, const std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -33,7 +29,7 @@ SpectralRadius::SpectralRadius(const int n_nodes, const double displacement, con
       direction_(to_device("skein::SpectralRadius::direction", make_noise(n_nodes, seed))),
       displaced_("skein::SpectralRadius::displaced", static_cast<std::size_t>(n_nodes)),
       displaced_velocity_("skein::SpectralRadius::displaced_velocity", static_cast<std::size_t>(n_nodes)) {
-  combine<ExecSpace>(ExecSpace(), direction_, {1.0 / root_mean_square(direction_), direction_}, {0.0, direction_});
+  combine<ExecSpace>(ExecSpace(), direction_, {1.0 / root_mean_square<ExecSpace>(ExecSpace(), direction_), direction_}, {0.0, direction_});
 }
 
 double SpectralRadius::estimate(RightHandSide& rhs, const double time, const ConstVectors& position,
@@ -45,7 +41,7 @@ double SpectralRadius::estimate(RightHandSide& rhs, const double time, const Con
     const Vectors& change = displaced_velocity_;
     combine<ExecSpace>(ExecSpace(), change, {1.0 / displacement_, displaced_velocity_},
                        {-1.0 / displacement_, velocity});
-    const double size = root_mean_square(change);
+    const double size = root_mean_square<ExecSpace>(ExecSpace(), change);
     // The vector stays as it was: one that is zero or not finite would spoil every later estimate.
     if (!(size > 0.0) || !std::isfinite(size)) return size;
     combine<ExecSpace>(ExecSpace(), direction_, {1.0 / size, change}, {0.0, change});
