@@ -62,9 +62,12 @@ struct HarmonicField {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
     const Lanes s = (x * q[0] + (y * q[1] + z * q[2]) - q[3]) * inverse * inverse * inverse;
-    u[0] += q[0] * inverse + s * dx;
-    u[1] += q[1] * inverse + s * dy;
-    u[2] += q[2] * inverse + s * dz;
+    u[0] += q[0] * inverse;
+    u[0] += s * dx;
+    u[1] += q[1] * inverse;
+    u[1] += s * dy;
+    u[2] += q[2] * inverse;
+    u[2] += s * dz;
   }
 };
 
@@ -93,9 +96,12 @@ struct StokesletField {
     const Lanes doublet = Real(0.5) * source.blob_squared * inverse_squared;
     const Lanes isotropic = inverse + doublet * inverse;
     const Lanes along = (inverse - Real(3) * doublet * inverse) * inverse_squared * f_dot_d;
-    potential[0] += isotropic * source.force[0] + along * dx;
-    potential[1] += isotropic * source.force[1] + along * dy;
-    potential[2] += isotropic * source.force[2] + along * dz;
+    potential[0] += isotropic * source.force[0];
+    potential[0] += along * dx;
+    potential[1] += isotropic * source.force[1];
+    potential[1] += along * dy;
+    potential[2] += isotropic * source.force[2];
+    potential[2] += along * dz;
   }
 
   template <class Lanes, class Real>
@@ -104,9 +110,12 @@ struct StokesletField {
     const Lanes dx = x - point[0], dy = y - point[1], dz = z - point[2];
     const Lanes inverse = math::inverse_sqrt(dx * dx + (dy * dy + dz * dz));
     const Lanes along = (q[0] * dx + q[1] * dy + q[2] * dz) * inverse * inverse * inverse;
-    u[0] += q[0] * inverse + along * dx;
-    u[1] += q[1] * inverse + along * dy;
-    u[2] += q[2] * inverse + along * dz;
+    u[0] += q[0] * inverse;
+    u[0] += along * dx;
+    u[1] += q[1] * inverse;
+    u[1] += along * dy;
+    u[2] += q[2] * inverse;
+    u[2] += along * dz;
   }
 };
 

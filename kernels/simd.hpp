@@ -57,13 +57,43 @@ inline void store_pack(Real* to, const Pack<Real> pack) {
   std::memcpy(to, &pack, bytes);
 }
 
-/// Sum of the lanes in double, in a fixed order.
-template <class Real>
-inline double sum_lanes(const Pack<Real> pack) {
-  double sum = 0.0;
-  for (int lane = 0; lane < width<Real>; ++lane) sum += static_cast<double>(pack[lane]);
-  return sum;
+/// Half as many floats as a pack of them holds: one for each lane of a pack of doubles.
+typedef float HalfPack __attribute__((vector_size(bytes / 2)));
+
+inline Pack<double> to_double(const HalfPack half) { return __builtin_convertvector(half, Pack<double>); }
+inline HalfPack to_single(const Pack<double> pack) { return __builtin_convertvector(pack, HalfPack); }
+inline HalfPack half_of(const Pack<float>& pack, const int which) {
+  HalfPack half;
+  std::memcpy(&half, reinterpret_cast<const char*>(&pack) + which * (bytes / 2), bytes / 2);
+  return half;
 }
+
+/// Sum of the lanes in double, in a fixed order: by halves, so that few operations wait for each other.
+inline double sum_lanes(const Pack<double> pack) {
+  double lanes[width<double>];
+  std::memcpy(lanes, &pack, bytes);
+  for (int half = width<double> / 2; half > 0; half /= 2)
+    for (int i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+  return lanes[0];
+}
+inline double sum_lanes(const Pack<float> pack) {
+  return sum_lanes(to_double(half_of(pack, 0)) + to_double(half_of(pack, 1)));
+}
+
+/// to[lane] += pack[lane], in double.
+inline void add_lanes(double* to, const Pack<double> pack) { store_pack(to, load_pack(to) + pack); }
+inline void add_lanes(double* to, const Pack<float> pack) {
+  for (int half = 0; half < 2; ++half) add_lanes(to + half * width<double>, to_double(half_of(pack, half)));
+}
+
+inline Pack<double> smaller_lanes(const Pack<double> a, const Pack<double> b) { return a < b ? a : b; }
+inline Pack<double> larger_lanes(const Pack<double> a, const Pack<double> b) { return a > b ? a : b; }
+inline double smallest_lane(const Pack<double> pack) {
+  double smallest = pack[0];
+  for (int lane = 1; lane < width<double>; ++lane) smallest = pack[lane] < smallest ? pack[lane] : smallest;
+  return smallest;
+}
+inline double largest_lane(const Pack<double> pack) { return -smallest_lane(-pack); }
 
 /// y with |1 - x y^2| < 8e-4 in single and < 1.3e-4 in double precision; x > 0.
 /// The processor's estimate where it has one for this precision, else Blinn's linear guess by the bits of the number
@@ -105,7 +135,11 @@ inline Pack<float> inverse_sqrt_cubed(const Pack<float> x) {
   const Pack<float> y2 = y * y;
   const Pack<float> e = 1.0f - x * y2;
   const Pack<float> y3 = y2 * y;
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return y3 * (1.0f + 1.5f * e);  // |e| < 1.3e-4: the next term is below 4e-8
+#else
   return y3 + y3 * e * (1.5f + e * 1.875f);
+#endif
 }
 
 }  // namespace skein::simd

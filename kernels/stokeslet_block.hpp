@@ -22,7 +22,7 @@ struct HostSources {
 };
 
 // Targets wait in registers and in the first cache while the sources stream past, tile by tile.
-inline constexpr int block_targets = 64;
+inline constexpr int block_targets = 128;
 inline constexpr int tile_sources = 128;
 inline constexpr int packs_at_once = 2;  // two independent chains of operations hide the latency of each
 
@@ -34,13 +34,12 @@ using SourceTile = NodeTile<Real, tile_sources>;
 /// Velocities of a block's targets; padding lanes included.
 template <class Real>
 struct BlockSum {
-  double velocity[3][Block<Real>::padded];
+  alignas(simd::bytes) double velocity[3][Block<Real>::padded];
 };
 
 /// sum += velocity at `packs` packs of targets due to one tile.
 template <int packs, bool with_low, class Real>
-void add_tile(const Block<Real>& targets, const int first, const SourceTile<Real>& sources,
-              BlockSum<Real>& sum) {
+void add_tile(const Block<Real>& targets, const int first, const SourceTile<Real>& sources, BlockSum<Real>& sum) {
   constexpr int width = simd::width<Real>;
   simd::Pack<Real> x[packs], y[packs], z[packs], ux[packs] = {}, uy[packs] = {}, uz[packs] = {};
   [[maybe_unused]] simd::Pack<Real> x_low[packs], y_low[packs], z_low[packs];
@@ -57,7 +56,7 @@ void add_tile(const Block<Real>& targets, const int first, const SourceTile<Real
   for (int s = 0; s < sources.n_nodes; ++s) {
     const Real fx = sources.force[0][s], fy = sources.force[1][s], fz = sources.force[2][s];
     const Real blob_squared = sources.blob_squared[s];
-SKEIN_UNROLL
+    SKEIN_UNROLL
     for (int k = 0; k < packs; ++k) {
       simd::Pack<Real> dx = x[k] - sources.high[0][s];
       simd::Pack<Real> dy = y[k] - sources.high[1][s];
@@ -71,17 +70,15 @@ SKEIN_UNROLL
       regularized_stokeslet::add(weight, dx, dy, dz, fx, fy, fz, ux[k], uy[k], uz[k]);
     }
   }
-  for (int k = 0; k < packs; ++k)
-    for (int lane = 0; lane < width; ++lane) {
-      sum.velocity[0][first + k * width + lane] += static_cast<double>(ux[k][lane]);
-      sum.velocity[1][first + k * width + lane] += static_cast<double>(uy[k][lane]);
-      sum.velocity[2][first + k * width + lane] += static_cast<double>(uz[k][lane]);
-    }
+  for (int k = 0; k < packs; ++k) {
+    simd::add_lanes(&sum.velocity[0][first + k * width], ux[k]);
+    simd::add_lanes(&sum.velocity[1][first + k * width], uy[k]);
+    simd::add_lanes(&sum.velocity[2][first + k * width], uz[k]);
+  }
 }
 
 template <bool with_low, class Real>
-void add_tile_to_block(const Block<Real>& targets, const SourceTile<Real>& sources,
-                       BlockSum<Real>& sum) {
+void add_tile_to_block(const Block<Real>& targets, const SourceTile<Real>& sources, BlockSum<Real>& sum) {
   constexpr int width = simd::width<Real>;
   int first = 0;
   for (; first + packs_at_once * width <= targets.n_padded(); first += packs_at_once * width)
@@ -96,10 +93,12 @@ void add_run_to_block(const HostSources& from, const Run run, const Block<Real>&
   SourceTile<Real> sources;
   for (int s = 0; s < run.count; s += tile_sources) {
     const int first = run.first + s;
-    sources.template load_positions<HostSpace>(from.position, first, math::smaller(tile_sources, run.count - s), origin);
+    sources.template load_positions<HostSpace>(from.position, first, math::smaller(tile_sources, run.count - s),
+                                               origin);
     sources.template load_forces<HostSpace>(from.force, first, from.scale);
     sources.template load_blobs<HostSpace>(from.blob, first);
-    if (needs_low_parts(targets, sources))
+    const Real smallest = *std::min_element(sources.blob_squared, sources.blob_squared + sources.n_nodes);
+    if (needs_low_parts(targets, sources, static_cast<double>(smallest)))
       add_tile_to_block<Block<Real>::split>(targets, sources, sum);
     else
       add_tile_to_block<false>(targets, sources, sum);
@@ -111,7 +110,7 @@ void add_run_to_block(const HostSources& from, const Run run, const Block<Real>&
 template <class Real, class NextRun>
 void add_runs_to_targets(const HostSources& from, const NextRun& next_run, const ConstVectorView<HostSpace>& target,
                          const Run targets, const VectorView<HostSpace>& velocity) {
-  const Vec3 origin = load(target, targets.first);
+  const Vec3 origin = load(target, targets.first + targets.count / 2);
   Block<Real> block;
   block.template load_positions<HostSpace>(target, targets.first, targets.count, origin);
   BlockSum<Real> sum = {};

@@ -2,17 +2,19 @@
 
 #include <skein/core/error.hpp>
 
+#include "kernels/simd_transpose.hpp"
 #include "kernels/stokeslet_block.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <thread>
 #include <utility>
 #include <vector>
 
-// Nodes are cut into n_tiles tiles. In round 0 each tile plays alone, in rounds 1 .. n_tiles - 1 a tournament pairs every
-// tile with every other, each tile once a round. Threads claim matches in order; a match waits until its tiles have
-// finished the rounds before. So no buffers, no atomics on velocities, no barrier between rounds, and every node
+// Nodes are cut into n_tiles tiles. In round 0 each tile plays alone, in rounds 1 .. n_tiles - 1 a tournament pairs
+// every tile with every other, each tile once a round. Threads claim matches in order; a match waits until its tiles
+// have finished the rounds before. So no buffers, no atomics on velocities, no barrier between rounds, and every node
 // receives its contributions in the order of the rounds whatever the number of threads.
 
 namespace skein {
@@ -20,17 +22,21 @@ namespace {
 
 using simd::Pack;
 
-constexpr int side_nodes = 192;   // of a tile that are in flight at once
-constexpr int nodes_per_tile = 96;  // aimed at; few nodes make few tiles, many make max_tiles larger ones
+constexpr int side_nodes = 192;      // of a tile that are in flight at once
+constexpr int nodes_per_tile = 128;  // aimed at; few nodes make few tiles, many make max_tiles larger ones
 constexpr int max_tiles = 64;
+constexpr int tile_step = 16;        // nodes: whole packs of floats
+constexpr int undivided_nodes = 48;  // at most block_targets
 
 template <class Real>
 using Side = NodeTile<Real, side_nodes>;
 
 Run tile_run(const int tile, const int n_tiles, const int n_nodes) {
-  const int first = static_cast<int>(static_cast<std::int64_t>(n_nodes) * tile / n_tiles);
-  const int last = static_cast<int>(static_cast<std::int64_t>(n_nodes) * (tile + 1) / n_tiles);
-  return {first, last - first};
+  const auto edge = [=](const int t) {
+    const auto even = static_cast<int>(static_cast<std::int64_t>(n_nodes) * t / n_tiles);
+    return t < n_tiles ? even / tile_step * tile_step : n_nodes;
+  };
+  return {edge(tile), edge(tile + 1) - edge(tile)};
 }
 
 /// The tiles of a match by the circle method: the last tile stays, the others rotate.
@@ -56,50 +62,63 @@ class Rounds {
   std::vector<std::atomic<int>> finished_;
 };
 
-/// Both directions between two sides: u += S f, v += S g with the weights computed once.
-template <bool with_low, class Real>
-void exchange(const Side<Real>& a, const Side<Real>& b, const Real blob_squared, double (&velocity_a)[3][side_nodes],
-              double (&velocity_b)[3][side_nodes]) {
-  constexpr int width = simd::width<Real>;
-  // Reactions on b, a lane for each lane of a: summed over lanes once, at the end.
-  alignas(simd::bytes) Pack<Real> reaction[side_nodes][3] = {};
-  for (int i = 0; i < a.n_padded(); i += width) {
-    const Pack<Real> x = simd::load_pack(&a.high[0][i]), y = simd::load_pack(&a.high[1][i]),
-                     z = simd::load_pack(&a.high[2][i]);
-    [[maybe_unused]] Pack<Real> x_low, y_low, z_low;
-    if constexpr (with_low) {
-      x_low = simd::load_pack(&a.low[0][i]);
-      y_low = simd::load_pack(&a.low[1][i]);
-      z_low = simd::load_pack(&a.low[2][i]);
-    }
-    const Pack<Real> gx = simd::load_pack(&a.force[0][i]), gy = simd::load_pack(&a.force[1][i]),
-                     gz = simd::load_pack(&a.force[2][i]);
-    Pack<Real> ux = {}, uy = {}, uz = {};
-    for (int j = 0; j < b.n_nodes; ++j) {
-      Pack<Real> dx = x - b.high[0][j];
-      Pack<Real> dy = y - b.high[1][j];
-      Pack<Real> dz = z - b.high[2][j];
-      if constexpr (with_low) {
-        dx += x_low - b.low[0][j];
-        dy += y_low - b.low[1][j];
-        dz += z_low - b.low[2][j];
-      }
-      const auto weight = regularized_stokeslet::weights(dx, dy, dz, blob_squared);
-      regularized_stokeslet::add(weight, dx, dy, dz, b.force[0][j], b.force[1][j], b.force[2][j], ux, uy, uz);
-      // d changes its sign for the reaction, and enters twice.
-      regularized_stokeslet::add(weight, dx, dy, dz, gx, gy, gz, reaction[j][0], reaction[j][1], reaction[j][2]);
-    }
-    for (int lane = 0; lane < width && i + lane < a.n_nodes; ++lane) {
-      velocity_a[0][i + lane] += static_cast<double>(ux[lane]);
-      velocity_a[1][i + lane] += static_cast<double>(uy[lane]);
-      velocity_a[2][i + lane] += static_cast<double>(uz[lane]);
-    }
+/// Velocities on a side of nodes, and on each node of one a lane for each of the others it has met.
+using SideVelocity = double[3][side_nodes];
+template <class Real>
+using SideReaction = Pack<Real>[3][side_nodes];
+
+/// Both directions between one pack of a and all of b, with the weights computed once. The first pack writes the
+/// reactions on b, the others add to them.
+template <bool with_low, bool is_first, class Real>
+void exchange_pack(const Side<Real>& a, const int i, const Side<Real>& b, const Real blob_squared,
+                   SideVelocity& velocity_a, SideReaction<Real>& reaction) {
+  const Pack<Real> x = simd::load_pack(&a.high[0][i]), y = simd::load_pack(&a.high[1][i]),
+                   z = simd::load_pack(&a.high[2][i]);
+  [[maybe_unused]] Pack<Real> x_low, y_low, z_low;
+  if constexpr (with_low) {
+    x_low = simd::load_pack(&a.low[0][i]);
+    y_low = simd::load_pack(&a.low[1][i]);
+    z_low = simd::load_pack(&a.low[2][i]);
   }
-  for (int j = 0; j < b.n_nodes; ++j)
-    for (int c = 0; c < 3; ++c) velocity_b[c][j] += simd::sum_lanes<Real>(reaction[j][c]);
+  const Pack<Real> gx = simd::load_pack(&a.force[0][i]), gy = simd::load_pack(&a.force[1][i]),
+                   gz = simd::load_pack(&a.force[2][i]);
+  Pack<Real> ux = {}, uy = {}, uz = {};
+  for (int j = 0; j < b.n_nodes; ++j) {
+    Pack<Real> dx = x - b.high[0][j];
+    Pack<Real> dy = y - b.high[1][j];
+    Pack<Real> dz = z - b.high[2][j];
+    if constexpr (with_low) {
+      dx += x_low - b.low[0][j];
+      dy += y_low - b.low[1][j];
+      dz += z_low - b.low[2][j];
+    }
+    const auto weight = regularized_stokeslet::weights(dx, dy, dz, blob_squared);
+    regularized_stokeslet::add(weight, dx, dy, dz, b.force[0][j], b.force[1][j], b.force[2][j], ux, uy, uz);
+    // d changes its sign for the reaction, and enters twice.
+    if constexpr (is_first) reaction[0][j] = reaction[1][j] = reaction[2][j] = Pack<Real>{};
+    regularized_stokeslet::add(weight, dx, dy, dz, gx, gy, gz, reaction[0][j], reaction[1][j], reaction[2][j]);
+  }
+  simd::add_lanes(&velocity_a[0][i], ux);
+  simd::add_lanes(&velocity_a[1][i], uy);
+  simd::add_lanes(&velocity_a[2][i], uz);
 }
 
-void add_to(const VectorView<HostSpace>& total, const Run run, const double (&velocity)[3][side_nodes]) {
+/// Both directions between two sides: u += S f, v += S g.
+template <bool with_low, class Real>
+void exchange(const Side<Real>& a, const Side<Real>& b, const Real blob_squared, SideVelocity& velocity_a,
+              SideVelocity& velocity_b) {
+  constexpr int width = simd::width<Real>;
+  alignas(simd::bytes) SideReaction<Real> reaction;
+  for (auto& component : reaction) std::fill(component + b.n_nodes, component + b.n_padded(), Pack<Real>{});
+  exchange_pack<with_low, true>(a, 0, b, blob_squared, velocity_a, reaction);
+  for (int i = width; i < a.n_padded(); i += width)
+    exchange_pack<with_low, false>(a, i, b, blob_squared, velocity_a, reaction);
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < b.n_padded(); j += width)
+      simd::add_lanes(&velocity_b[c][j], simd::sum_lanes_of_each<Real>(&reaction[c][j]));
+}
+
+void add_to(const VectorView<HostSpace>& total, const Run run, const SideVelocity& velocity) {
   for (int c = 0; c < 3; ++c)
     for (int i = 0; i < run.count; ++i) total(run.first + i, c) += velocity[c][i];
 }
@@ -117,14 +136,14 @@ void add_between(const HostSources& nodes, const Run one, const Run other, const
   Side<Real> a, b;
   for (int i = 0; i < one.count; i += side_nodes) {
     const Run run_a{one.first + i, math::smaller(side_nodes, one.count - i)};
-    const Vec3 origin = load(nodes.position, run_a.first);
+    const Vec3 origin = load(nodes.position, run_a.first + run_a.count / 2);
     load_side(a, nodes, run_a, origin);
-    double velocity_a[3][side_nodes] = {};
+    alignas(simd::bytes) SideVelocity velocity_a = {};
     for (int j = 0; j < other.count; j += side_nodes) {
       const Run run_b{other.first + j, math::smaller(side_nodes, other.count - j)};
       load_side(b, nodes, run_b, origin);
-      double velocity_b[3][side_nodes] = {};
-      if (needs_low_parts(a, b))
+      alignas(simd::bytes) SideVelocity velocity_b = {};
+      if (needs_low_parts(a, b, static_cast<double>(blob_squared)))
         exchange<Side<Real>::split>(a, b, blob_squared, velocity_a, velocity_b);
       else
         exchange<false>(a, b, blob_squared, velocity_a, velocity_b);
@@ -134,18 +153,24 @@ void add_between(const HostSources& nodes, const Run one, const Run other, const
   }
 }
 
-/// Both directions of each pair inside a run, one after the other: simpler, and 1 / n_tiles of the work.
+/// Each pair of nodes inside a run: between its halves, then inside each. Few nodes are summed one direction after the
+/// other.
 template <class Real>
 void add_within(const HostSources& nodes, const Run run, const VectorView<HostSpace>& velocity) {
-  for (int i = 0; i < run.count; i += block_targets) {
-    bool given = false;
-    const auto whole_run = [&](Run& sources) {
-      sources = run;
-      return !std::exchange(given, true);
-    };
-    add_runs_to_targets<Real>(nodes, whole_run, nodes.position,
-                              {run.first + i, math::smaller(block_targets, run.count - i)}, velocity);
+  if (run.count > undivided_nodes) {
+    const int half = math::ceil_div(run.count, 2 * tile_step) * tile_step;
+    const Run first{run.first, half}, second{run.first + half, run.count - half};
+    add_within<Real>(nodes, first, velocity);
+    add_between<Real>(nodes, first, second, velocity);
+    add_within<Real>(nodes, second, velocity);
+    return;
   }
+  bool given = false;
+  const auto whole_run = [&](Run& sources) {
+    sources = run;
+    return !std::exchange(given, true);
+  };
+  add_runs_to_targets<Real>(nodes, whole_run, nodes.position, run, velocity);
 }
 
 template <class Real>

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/regularized_stokeslet.hpp"
+#include "kernels/simd_transpose.hpp"
 #include "tests/reference/point_cloud.hpp"
 
 #include <cmath>
@@ -84,7 +85,31 @@ TYPED_TEST(PackTest, SumOfLanesIsTakenInDouble) {
     pack[lane] = static_cast<Real>(lane == 0 ? 1 << 20 : std::ldexp(1.0, -lane));  // lost if added in single precision
     sum += static_cast<double>(pack[lane]);
   }
-  EXPECT_EQ(simd::sum_lanes<Real>(pack), sum);
+  EXPECT_EQ(simd::sum_lanes(pack), sum);
+}
+
+TYPED_TEST(PackTest, EachOfAsManyPacksAsLanesIsSummedIntoItsLane) {
+  using Real = TypeParam;
+  constexpr int width = simd::width<Real>;
+  simd::Pack<Real> packs[width];
+  for (int i = 0; i < width; ++i)
+    for (int lane = 0; lane < width; ++lane) packs[i][lane] = static_cast<Real>(1 + i * i + 100 * i * lane);  // exact
+  const simd::Pack<Real> sums = simd::sum_lanes_of_each<Real>(packs);
+  for (int i = 0; i < width; ++i) EXPECT_EQ(sums[i], Real(width * (1 + i * i) + 50 * i * width * (width - 1))) << i;
+}
+
+TYPED_TEST(PackTest, LanesAreAddedInDouble) {
+  using Real = TypeParam;
+  constexpr int width = simd::width<Real>;
+  alignas(simd::bytes) double to[width];
+  simd::Pack<Real> pack;
+  for (int lane = 0; lane < width; ++lane) {
+    to[lane] = std::ldexp(1.0, 30) + lane;
+    pack[lane] = static_cast<Real>(std::ldexp(3.0, -lane));
+  }
+  simd::add_lanes(to, pack);
+  for (int lane = 0; lane < width; ++lane)
+    EXPECT_EQ(to[lane], std::ldexp(1.0, 30) + lane + std::ldexp(3.0, -lane)) << lane;
 }
 
 TYPED_TEST(PackTest, NotANumberStaysOneInItsLaneAlone) {

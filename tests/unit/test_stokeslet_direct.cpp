@@ -97,6 +97,17 @@ TEST_P(StokesletSum, AgreesForFibersFarApart) {
   EXPECT_LT(error_at_sources(both), GetParam().tolerance);
 }
 
+// Blobs and nearest neighbours far below a tile's extent: single precision needs the low parts of coordinates.
+TEST_P(StokesletSum, AgreesForClosePairsFarFromEachOther) {
+  reference::PointForces pairs = sources(Cloud::cube, 400);
+  const double close = 3e-5;
+  for (std::size_t i = 0; i < pairs.position.size(); ++i) {
+    pairs.blob[i] = close;
+    if (i % 2 == 1) pairs.position[i] = pairs.position[i - 1] + Vec3{0.6 * close, -0.3 * close, close};
+  }
+  EXPECT_LT(error_at_sources(pairs), GetParam().tolerance);
+}
+
 TEST_P(StokesletSum, AgreesForCoincidentNodes) {
   reference::PointForces coincident = sources(Cloud::cube, 400);
   for (std::size_t i = 0; i + 5 < coincident.position.size(); i += 3)
