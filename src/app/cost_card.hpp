@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include <skein/hydro/mobility.hpp>
+
 namespace skein {
 
 /// What a run took and where its time went.
@@ -19,6 +21,8 @@ struct CostCard {
   double megabytes = 0.0;
   double largest_error = 0.0;  ///< of a step, over the tolerance; 0 where the method has no estimate
   std::string mobility;        ///< as it describes itself
+  ErrorRecord velocity_errors;  ///< of the whole run
+  double direct_seconds = 0.0;  ///< that direct sums would have taken, estimated; 0 where that is the method
 };
 
 /// Several lines; shares of the wall time in percent.

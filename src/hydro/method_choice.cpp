@@ -65,12 +65,11 @@ double least_error(const FmmOptions& options) {
   return options.precision == FmmPrecision::in_single ? std::max(error, single_error) : error;
 }
 
-/// Half-width below which blobs spoil the far field, length.
-double needed_half_width(const FmmOptions& options, const double blob) {
-  return blob * std::pow(floor_factor(options) / options.tolerance, 0.25);
-}
-
 }  // namespace
+
+double smallest_half_width(const FmmOptions& options, const double max_blob) {
+  return max_blob * std::pow(floor_factor(options) / options.tolerance, 0.25);
+}
 
 double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
 
@@ -80,27 +79,38 @@ double single_precision_error(const double min_blob, const double half_width) {
 
 bool needs_direct_sum(const FmmOptions& options) { return options.tolerance < least_error(options); }
 
-void check_fmm_options(const FmmOptions& options) {
-  const auto refuse = [](const std::string& message) { throw Error(ExitCode::scene_error, message); };
+std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
+  std::vector<OptionProblem> problems;
   const Rows rows = rows_of(options.far_field);
-  if (!(options.tolerance > 0.0)) refuse(fmt::format("tolerance = {}: must be positive", options.tolerance));
-  if (options.leaf_size < 0) refuse(fmt::format("leaf_size = {}: must not be negative", options.leaf_size));
-  if (options.order != 0 && (options.order < rows.front().order || options.order > rows.back().order))
-    refuse(fmt::format("order = {}: must be between {} and {}, or 0 to leave it to the tolerance", options.order,
-                       rows.front().order, rows.back().order));
-  if (needs_direct_sum(options))
-    refuse(
-        fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
-                    "field and precision: raise it, or use method = \"direct\"",
-                    options.tolerance, least_error(options)));
-  if (options.order != 0) {
-    const Row& row = rows[static_cast<std::size_t>(options.order - rows.front().order)];
-    if (row.error > options.tolerance)
-      refuse(
-          fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to leave it "
-                      "to the tolerance",
-                      options.order, row.error, options.tolerance));
+  const bool has_tolerance = options.tolerance > 0.0;
+  const bool has_order = options.order >= rows.front().order && options.order <= rows.back().order;
+  if (!has_tolerance) problems.push_back({"tolerance", fmt::format("tolerance = {}: must be positive", options.tolerance)});
+  if (options.leaf_size < 0)
+    problems.push_back({"leaf_size", fmt::format("leaf_size = {}: must not be negative", options.leaf_size)});
+  if (options.order != 0 && !has_order)
+    problems.push_back({"order", fmt::format("order = {}: must be between {} and {} with this far field, or 0 to leave it "
+                                             "to the tolerance",
+                                             options.order, rows.front().order, rows.back().order)});
+  if (has_tolerance && needs_direct_sum(options))
+    problems.push_back(
+        {"tolerance",
+         fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
+                     "field and precision: raise it, or use method = \"direct\"",
+                     options.tolerance, least_error(options))});
+  if (has_tolerance && has_order) {
+    const double error = rows[static_cast<std::size_t>(options.order - rows.front().order)].error;
+    if (error > options.tolerance)
+      problems.push_back(
+          {"order", fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to "
+                                "leave it to the tolerance",
+                                options.order, error, options.tolerance)});
   }
+  return problems;
+}
+
+void check_fmm_options(const FmmOptions& options) {
+  const auto problems = find_fmm_problems(options);
+  if (!problems.empty()) throw Error(ExitCode::scene_error, problems.front().message);
 }
 
 FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const int raised_order) {
@@ -123,7 +133,7 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
   plan.expected_error = plan.far_in_single ? std::max(row->error, single_error) : row->error;
 
-  const double needed = needed_half_width(options, max_blob);
+  const double needed = smallest_half_width(options, max_blob);
   plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
   if (plan.min_half_width < 0.999 * needed)
     throw Error(
@@ -133,6 +143,17 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                     options.min_half_width, options.tolerance, max_blob,
                     floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
   return plan;
+}
+
+std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
+  const char* const field = options.far_field == FarField::harmonic    ? "harmonic"
+                            : options.far_field == FarField::stokeslet ? "Stokeslet"
+                                                                       : "regularized";
+  std::string text = fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf",
+                                 field, plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
+  if (plan.min_half_width > 0.0)
+    text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
+  return text + fmt::format(", error at most {:.1g} expected, {:g} allowed", plan.expected_error, options.tolerance);
 }
 
 double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool direct_is_symmetric) {
