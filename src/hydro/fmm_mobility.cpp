@@ -190,7 +190,8 @@ std::string FmmMobility::describe() const {
   if (options_.direct_when_cheaper && needs_direct_sum(options_))
     return fmt::format("direct sum: tolerance {:g} is below what the fast multipole method promises",
                        options_.tolerance);
-  return describe_fmm_plan(options_, choose_fmm_plan(options_, 0.0, raised_order_));
+  const FmmStatistics& last = evaluator_->statistics;
+  return describe_fmm_plan(options_, last.n_boxes > 0 ? last.plan : choose_fmm_plan(options_, 0.0, raised_order_));
 }
 
 }  // namespace skein

@@ -57,6 +57,9 @@ Rows rows_of(const FarField far_field) {
   return stokeslet_rows;
 }
 
+/// Of the tolerance, that blobs may use up; the order's own error is seldom as large as its bound.
+constexpr double blob_share = 0.5;
+
 /// The best that a far field promises.
 double least_error(const FmmOptions& options) {
   const Rows rows = rows_of(options.far_field);
@@ -68,7 +71,7 @@ double least_error(const FmmOptions& options) {
 }  // namespace
 
 double smallest_half_width(const FmmOptions& options, const double max_blob) {
-  return max_blob * std::pow(floor_factor(options) / options.tolerance, 0.25);
+  return max_blob * std::pow(floor_factor(options) / (blob_share * options.tolerance), 0.25);
 }
 
 double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
@@ -116,18 +119,24 @@ void check_fmm_options(const FmmOptions& options) {
 FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const int raised_order) {
   check_fmm_options(options);
   const Rows rows = rows_of(options.far_field);
-  const int least_order = math::larger(options.order, raised_order);
-  const Row* row = &rows.front();
-  while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+  const auto find_row = [&](const int least_order) {
+    const Row* row = &rows.front();
+    while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+    return row;
+  };
+  const Row* const planned = find_row(options.order);
+  const Row* const row = find_row(math::larger(options.order, raised_order));
+  const int n_raises = row->order - planned->order;
 
   FmmPlan plan;
   plan.order = row->order;
   plan.rank = row->rank;
   plan.far_in_single = options.precision == FmmPrecision::in_single ||
-                       (options.precision == FmmPrecision::automatic && options.tolerance >= single_error &&
-                        raised_order == 0);  // single precision may have been why
+                       (options.precision == FmmPrecision::automatic &&
+                        // After a miss, of which single precision may have been the cause, with a margin.
+                        options.tolerance >= (n_raises == 0 ? single_error : 20.0 * single_error));
   plan.near_in_single = plan.far_in_single;
-  plan.singular_cutoff = options.singular_cutoff > 0.0 && raised_order == 0 ? options.singular_cutoff
+  plan.singular_cutoff = options.singular_cutoff > 0.0 && n_raises == 0 ? options.singular_cutoff
                          : plan.far_in_single                               ? std::max(row->cutoff, single_cutoff)
                                                                             : row->cutoff;
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
@@ -142,6 +151,9 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                     "{:g}): use {:.4g} or more, or 0",
                     options.min_half_width, options.tolerance, max_blob,
                     floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
+  // Blobs may have been the cause as well as the order: a quarter of their error with each raise.
+  plan.min_half_width *= std::exp2(0.5 * n_raises);
+  if (plan.min_half_width > 0.0) plan.blob_error = floor_factor(options) * std::pow(max_blob / plan.min_half_width, 4);
   return plan;
 }
 
@@ -153,7 +165,9 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
                                  field, plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
   if (plan.min_half_width > 0.0)
     text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
-  return text + fmt::format(", error at most {:.1g} expected, {:g} allowed", plan.expected_error, options.tolerance);
+  text += fmt::format(", error of at most {:.1g} expected", plan.expected_error);
+  if (plan.blob_error > 0.0) text += fmt::format(" by the order and {:.1g} by the blobs", plan.blob_error);
+  return text + fmt::format(", {:g} allowed", options.tolerance);
 }
 
 double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool direct_is_symmetric) {

@@ -44,7 +44,8 @@ struct FmmPlan {
   double min_half_width = 0.0;  ///< length
   bool near_in_single = false;  ///< allowed; see single_precision_error
   bool far_in_single = false;
-  double expected_error = 0.0;  ///< bound from the table, for any arrangement of nodes
+  double expected_error = 0.0;  ///< by the order: bound from the table, for any arrangement of nodes
+  double blob_error = 0.0;      ///< in the smallest leaves, by the floor law
 };
 
 /// What is wrong with one option, in words that begin with its name and value.
