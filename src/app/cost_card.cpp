@@ -39,9 +39,10 @@ std::string describe_cost(const CostCard& card) {
                           : std::string("not estimated by this integrator"),
                       card.mobility);
   if (card.direct_seconds > 0.0)
-    text += fmt::format("\n  {}; {} of all evaluations were no direct sums, which would have taken about {} instead of {}",
-                        describe_errors(card.velocity_errors), card.velocity_errors.n_approximate,
-                        format_duration(card.direct_seconds), format_duration(card.fluid));
+    text +=
+        fmt::format("\n  {}; {} of all evaluations were no direct sums, which would have taken about {} instead of {}",
+                    describe_errors(card.velocity_errors), card.velocity_errors.n_approximate,
+                    format_duration(card.direct_seconds), format_duration(card.fluid));
   return text;
 }
 

@@ -67,7 +67,8 @@ std::string find_lack_of_far_field(const FmmOptions& options, const Size& size) 
   const double half_width = smallest_half_width(options, size.max_blob);
   if (size.extent >= 2.0 * least_cells * half_width) return {};
   return fmt::format(
-      "with blobs of {:g} a tolerance of {:g} needs leaves of half-width {:.3g} or more, and all nodes lie within {:.3g}: "
+      "with blobs of {:g} a tolerance of {:g} needs leaves of half-width {:.3g} or more, and all nodes lie within "
+      "{:.3g}: "
       "no leaf is far from another",
       size.max_blob, options.tolerance, half_width, size.extent);
 }
@@ -89,15 +90,15 @@ MobilityChoice choose_mobility(const SceneConfig& scene) {
     choice.reason = fmt::format("chosen because it is exact, and below {:g} nodes little would be gained by any other",
                                 least_fmm_nodes);
   } else if (needs_direct_sum(choice.fmm)) {
-    choice.reason =
-        fmt::format("chosen because tolerance = {:g} is below what the fast multipole method promises", config.tolerance);
+    choice.reason = fmt::format("chosen because tolerance = {:g} is below what the fast multipole method promises",
+                                config.tolerance);
   } else if (const std::string lack = find_lack_of_far_field(choice.fmm, size);
              scene.fibers.size() == 1 && !lack.empty()) {
     choice.reason = "chosen because " + lack;
   } else {
     choice.is_direct = false;
-    choice.reason = fmt::format("chosen for {:g} nodes; a direct sum wherever the tree shows that it costs less",
-                                size.n_nodes);
+    choice.reason =
+        fmt::format("chosen for {:g} nodes; a direct sum wherever the tree shows that it costs less", size.n_nodes);
   }
   return choice;
 }
@@ -124,8 +125,9 @@ std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene) {
     if (!(falls_back && problem.option == "tolerance"))
       problems.push_back({"hydrodynamics." + problem.option, "hydrodynamics." + problem.message});
   if (options.far_field == FarField::regularized && !size.has_equal_blobs)
-    problems.push_back({"hydrodynamics.far_field",
-                        "hydrodynamics.far_field = \"regularized\" needs one blob for all fibers; \"harmonic\" does not"});
+    problems.push_back(
+        {"hydrodynamics.far_field",
+         "hydrodynamics.far_field = \"regularized\" needs one blob for all fibers; \"harmonic\" does not"});
   if (const std::string lack = find_lack_of_far_field(options, size);
       config.method == "fmm" && problems.empty() && !lack.empty())
     problems.push_back(

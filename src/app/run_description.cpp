@@ -46,14 +46,10 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  layout.attributes = {{"title", scene.title},
-                       {"scene", scene_text},
-                       {"version", version()},
-                       {"commit", commit()},
-                       {"build", describe_build()},
-                       {"backend", describe_backend()},
-                       {"flow", scene.flow.kind},
-                       {"integrator", scene.time.method}};
+  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
+                       {"version", version()},      {"commit", commit()},
+                       {"build", describe_build()}, {"backend", describe_backend()},
+                       {"flow", scene.flow.kind},   {"integrator", scene.time.method}};
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
@@ -86,9 +82,9 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);
-  text += fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
-                      1e3 * cost.seconds, evaluations, format_duration(evaluations * cost.seconds), n_frames,
-                      1e-6 * bytes);
+  text +=
+      fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
+                  1e3 * cost.seconds, evaluations, format_duration(evaluations * cost.seconds), n_frames, 1e-6 * bytes);
   if (scene.time.method == "euler" && scene.time.step * radius > 2.0)
     text += fmt::format(
         "\nwarning: the step times the spectral radius (about {:.3g}) is {:.3g}; forward Euler is unstable above 2",

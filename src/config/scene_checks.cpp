@@ -59,8 +59,9 @@ void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneRe
   if (hydrodynamics.method != "direct") return;
   const auto reject = [&](const char* key, const int value) {
     if (value == 0) return;
-    reader.add(problems, fmt::format("hydrodynamics.{}", key),
-               fmt::format("hydrodynamics.{} {} is of the fast multipole method, and method is \"direct\"", key, value));
+    reader.add(
+        problems, fmt::format("hydrodynamics.{}", key),
+        fmt::format("hydrodynamics.{} {} is of the fast multipole method, and method is \"direct\"", key, value));
   };
   reject("order", hydrodynamics.order);
   reject("leaf_size", hydrodynamics.leaf_size);

@@ -117,8 +117,9 @@ void visit_output(KeyVisitor& visitor, OutputConfig& output) {
 
 void visit_checkpoint(KeyVisitor& visitor, CheckpointConfig& checkpoint) {
   visitor.begin_table({"checkpoint", false, "From what `skein resume` goes on; one is made at the end of a run, too."});
-  visitor.number({"wall_interval", "seconds of wall time", zero_or_more(), "a checkpoint so often; 0: not by the clock"},
-                 checkpoint.wall_interval);
+  visitor.number(
+      {"wall_interval", "seconds of wall time", zero_or_more(), "a checkpoint so often; 0: not by the clock"},
+      checkpoint.wall_interval);
   visitor.number({"simulated_interval", "time", zero_or_more(), "a checkpoint so often; 0: not by simulated time"},
                  checkpoint.simulated_interval);
   visitor.integer({"keep", "", between(1, 1e6), "how many are kept, the newest"}, checkpoint.keep);

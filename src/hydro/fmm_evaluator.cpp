@@ -67,9 +67,8 @@ void FmmEvaluator::sort_nodes(const HostNodes& nodes, const double scale) {
 }
 
 template <class Real, class Field>
-void FmmEvaluator::pass(const FmmPlan& plan, const Field& field,
-                                  const std::vector<const OperatorSet<Real>*>& levels, Coefficients<Real>& coefficients,
-                                  const HostVectors& velocity) {
+void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+                        Coefficients<Real>& coefficients, const HostVectors& velocity) {
   Stopwatch watch;
   coefficients.stride = 0;
   for (const auto* level : levels)
@@ -98,9 +97,8 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field,
 }
 
 template <class Real>
-void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, const double blob,
-                                    OperatorStore<Real>& store, Coefficients<Real>& coefficients,
-                                    const HostVectors& velocity) {
+void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, const double blob, OperatorStore<Real>& store,
+                          Coefficients<Real>& coefficients, const HostVectors& velocity) {
   Stopwatch watch;
   const auto levels = store.require(options.far_field, plan, blob, tree_);
   statistics.operators_seconds = watch.lap();
@@ -140,8 +138,8 @@ double FmmEvaluator::node_bytes() const {
                                    (same ? 0 : sorted_.target.size()));
 }
 
-bool FmmEvaluator::add(const FmmOptions& options, FmmPlan plan, const double viscosity,
-                                 const HostNodes& nodes, const HostVectors& velocity) {
+bool FmmEvaluator::add(const FmmOptions& options, FmmPlan plan, const double viscosity, const HostNodes& nodes,
+                       const HostVectors& velocity) {
   Stopwatch watch;
   OctreeRules rules;
   rules.leaf_size = plan.leaf_size;

@@ -34,12 +34,15 @@ constexpr Row harmonic_rows[] = {
     {16, 1e-14, 5e-11, 1000, 300},
 };
 
-/// Strengths of Stokeslets, S_0 or S_eps. Without the cutoffs blobs are amplified by the small singular values of these
-/// operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the order.
+/// Strengths of Stokeslets, S_0 or S_eps. Above 12 points no more is promised. Without the cutoffs blobs are amplified
+/// by the small singular values of these operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the
+/// order.
 constexpr Row stokeslet_rows[] = {
-    {4, 1e-4, 5e-3, 150, 64},   {5, 1e-5, 1e-3, 220, 80},    {6, 1e-6, 2e-4, 300, 100},
-    {7, 1e-7, 4e-5, 400, 140},  {8, 1e-8, 1e-5, 500, 180},   {9, 1e-9, 2e-6, 600, 220},
-    {10, 1e-9, 1e-6, 700, 250}, {11, 1e-10, 2e-7, 900, 300}, {12, 1e-10, 1e-7, 1000, 300},
+    {4, 1e-4, 5e-3, 150, 64},     {5, 1e-5, 1e-3, 220, 80},     {6, 1e-6, 2e-4, 300, 100},
+    {7, 1e-7, 4e-5, 400, 140},    {8, 1e-8, 1e-5, 500, 180},    {9, 1e-9, 2e-6, 600, 220},
+    {10, 1e-9, 1e-6, 700, 250},   {11, 1e-10, 2e-7, 900, 300},  {12, 1e-10, 1e-7, 1000, 300},
+    {13, 1e-10, 1e-7, 1100, 300}, {14, 1e-10, 1e-7, 1200, 300}, {15, 1e-10, 1e-7, 1300, 300},
+    {16, 1e-10, 1e-7, 1400, 300},
 };
 
 /// Error between the nearest well-separated boxes over (eps / half-width)^4.
@@ -87,13 +90,15 @@ std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
   const Rows rows = rows_of(options.far_field);
   const bool has_tolerance = options.tolerance > 0.0;
   const bool has_order = options.order >= rows.front().order && options.order <= rows.back().order;
-  if (!has_tolerance) problems.push_back({"tolerance", fmt::format("tolerance = {}: must be positive", options.tolerance)});
+  if (!has_tolerance)
+    problems.push_back({"tolerance", fmt::format("tolerance = {}: must be positive", options.tolerance)});
   if (options.leaf_size < 0)
     problems.push_back({"leaf_size", fmt::format("leaf_size = {}: must not be negative", options.leaf_size)});
   if (options.order != 0 && !has_order)
-    problems.push_back({"order", fmt::format("order = {}: must be between {} and {} with this far field, or 0 to leave it "
-                                             "to the tolerance",
-                                             options.order, rows.front().order, rows.back().order)});
+    problems.push_back(
+        {"order", fmt::format("order = {}: must be between {} and {} with this far field, or 0 to leave it "
+                              "to the tolerance",
+                              options.order, rows.front().order, rows.back().order)});
   if (has_tolerance && needs_direct_sum(options))
     problems.push_back(
         {"tolerance",
@@ -104,9 +109,10 @@ std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
     const double error = rows[static_cast<std::size_t>(options.order - rows.front().order)].error;
     if (error > options.tolerance)
       problems.push_back(
-          {"order", fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to "
-                                "leave it to the tolerance",
-                                options.order, error, options.tolerance)});
+          {"order",
+           fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to "
+                       "leave it to the tolerance",
+                       options.order, error, options.tolerance)});
   }
   return problems;
 }
@@ -137,8 +143,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                         options.tolerance >= (n_raises == 0 ? single_error : 20.0 * single_error));
   plan.near_in_single = plan.far_in_single;
   plan.singular_cutoff = options.singular_cutoff > 0.0 && n_raises == 0 ? options.singular_cutoff
-                         : plan.far_in_single                               ? std::max(row->cutoff, single_cutoff)
-                                                                            : row->cutoff;
+                         : plan.far_in_single                           ? std::max(row->cutoff, single_cutoff)
+                                                                        : row->cutoff;
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
   plan.expected_error = plan.far_in_single ? std::max(row->error, single_error) : row->error;
 
@@ -161,8 +167,9 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
   const char* const field = options.far_field == FarField::harmonic    ? "harmonic"
                             : options.far_field == FarField::stokeslet ? "Stokeslet"
                                                                        : "regularized";
-  std::string text = fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf",
-                                 field, plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
+  std::string text =
+      fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf", field,
+                  plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
   if (plan.min_half_width > 0.0)
     text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
   text += fmt::format(", error of at most {:.1g} expected", plan.expected_error);

@@ -156,11 +156,10 @@ void append(Series& series, const StepRecord& record) {
   const auto evaluations = static_cast<double>(record.evaluations);  // exact below 2^53
   const auto order = static_cast<double>(record.fmm_order), misses = static_cast<double>(record.fmm_misses);
   const auto one = [](const double& value) { return std::span<const double>(&value, 1); };
-  series.append(
-      record.step, record.time,
-      {record.energy, record.length, record.curvature_max, as_doubles(record.end_to_end), one(record.smallest_gap),
-       one(record.dt), one(record.error), one(record.spectral_radius), one(evaluations),
-       one(record.velocity_error), one(order), one(misses)});
+  series.append(record.step, record.time,
+                {record.energy, record.length, record.curvature_max, as_doubles(record.end_to_end),
+                 one(record.smallest_gap), one(record.dt), one(record.error), one(record.spectral_radius),
+                 one(evaluations), one(record.velocity_error), one(order), one(misses)});
 }
 
 }  // namespace skein

@@ -59,6 +59,8 @@ def main():
     check("checks against direct sums, 0 above the tolerance" in result.stderr, "no checks in the cost card")
     check(run(program, two, SHEARED, threads=2).returncode == 0, "two threads")
     check(np.array_equal(positions(one), positions(two)), "one and two threads end differently")
+    info = subprocess.run([program, "info", one], capture_output=True, text=True).stdout
+    check("mobility: fast multipole method, harmonic far field of order 6" in info, info)
     error = steps(one, "velocity_error")
     check(np.isfinite(error).any() and 0.0 < np.nanmax(error) < TOLERANCE, f"errors {np.nanmax(error)}")
     check(np.all(steps(one, "fmm_order") == 6) and not steps(one, "fmm_misses").any(), "order or misses of a good run")

@@ -28,7 +28,8 @@ class MobilityProperties : public ::testing::TestWithParam<Row> {
   double tolerance() const { return GetParam().tolerance; }
 
   /// Velocities at other points than the sources' own array, even where these are equal.
-  std::vector<Vec3> compute_at(const reference::PointForces& from, const std::vector<Vec3>& target, const double viscosity) const {
+  std::vector<Vec3> compute_at(const reference::PointForces& from, const std::vector<Vec3>& target,
+                               const double viscosity) const {
     const auto mobility = GetParam().make(viscosity);
     const Vectors velocity("test::velocity", target.size());
     mobility->add_velocity(on_device(from), to_device("test::target", target), velocity);

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 
-// What every Mobility must do with the arrays that it is given. An implementation joins by a row in the table at the end.
+// What every Mobility must do with the arrays that it is given. An implementation joins by a row in the table at the
+// end.
 
 namespace skein {
 namespace {
@@ -169,9 +170,9 @@ TEST_P(MobilityProperties, LetsPositionsThatAreNotFiniteBeSeen) {
   EXPECT_TRUE(rc::check([this] {
     Fluid fluid = draw_fluid(900, *rc::gen::arbitrary<bool>());
     const auto node = static_cast<std::size_t>(fluid.random.bits() % fluid.sources.position.size());
-    const double value = *rc::gen::element(std::numeric_limits<double>::quiet_NaN(),
-                                           std::numeric_limits<double>::infinity(),
-                                           -std::numeric_limits<double>::infinity());
+    const double value =
+        *rc::gen::element(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                          -std::numeric_limits<double>::infinity());
     Vec3& x = fluid.sources.position[node];
     (fluid.random.bits() % 2 == 0 ? x.x : x.z) = value;
     const Vec3 u = compute(fluid.sources, fluid.viscosity)[node];

@@ -32,7 +32,8 @@ struct FmmStatistics {
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
 /// the approximations). The tree is rebuilt in every call, operators are kept. Runs on the host; device arrays are
-/// copied. A node whose position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
+/// copied. A node whose position is not finite makes all velocities not a number, as in a direct sum. Source: Ying,
+/// Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
@@ -68,7 +69,7 @@ class FmmMobility final : public Mobility {
   std::unique_ptr<FmmEvaluator> evaluator_;
   HostVectors own_velocity_;
   double pairs_ = 0.0;
-  int raised_order_ = 0;             ///< that a check found necessary; 0: as planned
+  int raised_order_ = 0;            ///< that a check found necessary; 0: as planned
   std::int64_t n_evaluations_ = 0;  ///< decides which are checked
   ErrorRecord record_;
   std::vector<std::string> messages_;

@@ -23,7 +23,7 @@ enum class OnMiss {
 struct FmmOptions {
   double tolerance = 1e-4;  ///< relative error of all velocities together (2-norm)
   FarField far_field = FarField::harmonic;
-  int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16 (harmonic), 4 .. 12
+  int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16
   int leaf_size = 0;            ///< nodes per leaf aimed at
   double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
   FmmPrecision precision = FmmPrecision::automatic;
