@@ -7,6 +7,15 @@
 #include "app/duration.hpp"
 
 namespace skein {
+namespace {
+
+std::string describe_errors(const ErrorRecord& errors) {
+  if (errors.n_checks == 0) return "never checked";
+  return fmt::format("error {:.2g} at most in {} check{} against direct sums, {} above the tolerance", errors.largest,
+                     errors.n_checks, errors.n_checks == 1 ? "" : "s", errors.n_misses);
+}
+
+}  // namespace
 
 std::string describe_cost(const CostCard& card) {
   const double seconds = std::max(card.seconds, 1e-9);
@@ -29,6 +38,11 @@ std::string describe_cost(const CostCard& card) {
                           ? fmt::format("at most {:.2g} of the tolerance in a step", card.largest_error)
                           : std::string("not estimated by this integrator"),
                       card.mobility);
+  if (card.direct_seconds > 0.0)
+    text +=
+        fmt::format("\n  {}; {} of all evaluations were no direct sums, which would have taken about {} instead of {}",
+                    describe_errors(card.velocity_errors), card.velocity_errors.n_approximate,
+                    format_duration(card.direct_seconds), format_duration(card.fluid));
   return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <skein/hydro/direct_mobility.hpp>
 #include <skein/time/make_integrator.hpp>
 #include <vector>
 
@@ -19,7 +21,7 @@ double seconds_since(const Clock::time_point start) {
 
 }  // namespace
 
-double time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
+EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
   const Vectors velocity("skein::time_evaluation", position.extent(0));
   std::vector<double> seconds;
   for (int repeat = 0; repeat < 6; ++repeat) {
@@ -32,7 +34,29 @@ double time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
     if (is_long) break;
   }
   std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
-  return seconds[seconds.size() / 2];
+  EvaluationCost cost;
+  cost.seconds = seconds[seconds.size() / 2];
+  return cost;
+}
+
+double time_direct_sum(const ConstVectors& position, const double viscosity) {
+  const std::size_t n = std::min<std::size_t>(position.extent(0), 4096);
+  const Vectors some("skein::time_direct_sum::position", n), force("skein::time_direct_sum::force", n),
+      velocity("skein::time_direct_sum::velocity", n);
+  const Scalars blob("skein::time_direct_sum::blob", n);
+  Kokkos::deep_copy(some, Kokkos::subview(position, std::make_pair(std::size_t{0}, n), Kokkos::ALL()));
+  Kokkos::deep_copy(force, 1.0);
+  Kokkos::deep_copy(blob, 1.0);
+  DirectMobility direct(viscosity, Precision::in_double);
+  double seconds = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const auto start = Clock::now();
+    direct.add_velocity({some, force, blob}, some, velocity);
+    Kokkos::fence();
+    seconds = std::min(seconds, seconds_since(start));
+  }
+  const double ratio = static_cast<double>(position.extent(0)) / static_cast<double>(n);
+  return seconds * ratio * ratio;
 }
 
 std::string describe_dry_run(const SceneConfig& scene) {
@@ -41,7 +65,10 @@ std::string describe_dry_run(const SceneConfig& scene) {
                          make_mobility(scene));
   const auto integrator = make_integrator(scene, fibers, dynamics);
   const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers));
-  return describe_run(scene, fibers, dynamics, *integrator, time_evaluation(dynamics, position));
+  EvaluationCost cost = time_evaluation(dynamics, position);
+  if (dynamics.mobility().error_record().n_approximate > 0)
+    cost.direct_seconds = time_direct_sum(position, scene.fluid.viscosity);
+  return describe_run(scene, fibers, dynamics, *integrator, cost);
 }
 
 }  // namespace skein

@@ -46,6 +46,9 @@ class FaultyMobility final : public Mobility {
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   double pairs() const override { return mobility_->pairs(); }
   std::string describe() const override { return mobility_->describe(); }
+  void visit_memory(MemoryVisitor& visitor) override { mobility_->visit_memory(visitor); }
+  ErrorRecord error_record() const override { return mobility_->error_record(); }
+  std::vector<std::string> take_messages() override { return mobility_->take_messages(); }
 
  private:
   std::unique_ptr<Mobility> mobility_;

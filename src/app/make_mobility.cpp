@@ -1,12 +1,16 @@
 #include "app/make_mobility.hpp"
 
 #include <skein/hydro/direct_mobility.hpp>
+#include <skein/hydro/fmm_mobility.hpp>
+
+#include "app/mobility_choice.hpp"
 
 namespace skein {
 
 std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene) {
-  const auto precision = scene.hydrodynamics.precision == "single" ? Precision::in_single : Precision::in_double;
-  return std::make_unique<DirectMobility>(scene.fluid.viscosity, precision);
+  const MobilityChoice choice = choose_mobility(scene);
+  if (choice.is_direct) return std::make_unique<DirectMobility>(scene.fluid.viscosity, choice.precision);
+  return std::make_unique<FmmMobility>(scene.fluid.viscosity, choice.fmm);
 }
 
 }  // namespace skein

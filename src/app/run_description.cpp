@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "app/duration.hpp"
+#include "app/mobility_choice.hpp"
 #include "app/scene_summary.hpp"
 
 namespace skein {
@@ -45,14 +46,10 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  layout.attributes = {{"title", scene.title},
-                       {"scene", scene_text},
-                       {"version", version()},
-                       {"commit", commit()},
-                       {"build", describe_build()},
-                       {"backend", describe_backend()},
-                       {"flow", scene.flow.kind},
-                       {"integrator", scene.time.method}};
+  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
+                       {"version", version()},      {"commit", commit()},
+                       {"build", describe_build()}, {"backend", describe_backend()},
+                       {"flow", scene.flow.kind},   {"integrator", scene.time.method}};
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
@@ -72,7 +69,7 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
 }
 
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
-                         const Integrator& integrator, const double evaluation_seconds) {
+                         const Integrator& integrator, const EvaluationCost& cost) {
   const double n_nodes = count_nodes(fibers);
   const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
   const double bytes = n_frames * n_nodes * (scene.output.precision == "single" ? 12.0 : 24.0);
@@ -81,10 +78,13 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
   text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", dynamics.flow().describe(),
-                      dynamics.mobility().describe(), integrator.describe(), scene.time.end);
-  text += fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
-                      1e3 * evaluation_seconds, evaluations, format_duration(evaluations * evaluation_seconds), n_frames,
-                      1e-6 * bytes);
+                      describe_choice(choose_mobility(scene), scene), integrator.describe(), scene.time.end);
+  if (cost.direct_seconds > 0.0)
+    text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
+                        cost.direct_seconds / cost.seconds);
+  text +=
+      fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
+                  1e3 * cost.seconds, evaluations, format_duration(evaluations * cost.seconds), n_frames, 1e-6 * bytes);
   if (scene.time.method == "euler" && scene.time.step * radius > 2.0)
     text += fmt::format(
         "\nwarning: the step times the spectral radius (about {:.3g}) is {:.3g}; forward Euler is unstable above 2",

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/evaluation_time.hpp"
+
 namespace skein {
 
 /// What a run folder says of itself in every trajectory.
@@ -14,8 +16,7 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
                                  const std::vector<Fiber>& fibers);
 
 /// A run's first lines: version, device, size, methods and why, what it will take.
-/// @param evaluation_seconds  measured wall time of one evaluation
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
-                         const Integrator& integrator, double evaluation_seconds);
+                         const Integrator& integrator, const EvaluationCost& cost);
 
 }  // namespace skein

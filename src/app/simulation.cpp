@@ -79,6 +79,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   MemoryRestorer restorer(checkpoint);
   visit_memory(restorer, state_);
   integrator_->visit_memory(restorer);
+  dynamics_.visit_memory(restorer);
   counters_.visit_memory(restorer);
   step_of_checkpoint_ = state_.step;
 }
@@ -93,6 +94,7 @@ void Simulation::save_checkpoint() {
   MemorySaver saver(checkpoint);
   visit_memory(saver, state_);
   integrator_->visit_memory(saver);
+  dynamics_.visit_memory(saver);
   counters_.visit_memory(saver);
   write_trajectory_end(checkpoint, trajectory_.end());
   checkpoint.set("scene.xxh3", find_trajectory_start(folder_).checksum);
@@ -119,11 +121,22 @@ bool Simulation::checkpoint_is_due(const double time_before) const {
 }
 
 void Simulation::introduce() {
-  const double seconds = time_evaluation(dynamics_, state_.position);
+  // Evaluations that only measure their cost leave no trace.
+  const Remembered before(dynamics_);
+  EvaluationCost cost;
+  try {
+    cost = time_evaluation(dynamics_, state_.position);
+    if (dynamics_.mobility().error_record().n_approximate > 0)
+      direct_seconds_ = cost.direct_seconds = time_direct_sum(state_.position, scene_.fluid.viscosity);
+  } catch (const Error& error) {  // the first step meets it, too, and there is a checkpoint then
+    if (error.code() != ExitCode::numerical) throw;
+  }
+  before.bring_back(dynamics_);
+  dynamics_.take_messages();
   spare_evaluations_ = dynamics_.evaluations();
   spare_pairs_ = dynamics_.mobility().pairs();
   spare_seconds_ = dynamics_.seconds();
-  say(describe_run(scene_, fibers_, dynamics_, *integrator_, seconds));
+  say(describe_run(scene_, fibers_, dynamics_, *integrator_, cost));
 }
 
 void Simulation::say(const std::string& text) {
@@ -197,13 +210,23 @@ StepReport Simulation::advance() {
     Clock::time_point start = Clock::now();
     ~Stopwatch() { sum += seconds_since(start); }
   } stopwatch{integration_seconds_};
-  return integrator_->advance(state_, scene_.time.end);
+  const Remembered before(dynamics_);
+  try {
+    return integrator_->advance(state_, scene_.time.end);
+  } catch (...) {
+    before.bring_back(dynamics_);
+    throw;
+  }
 }
 
 void Simulation::count(const StepReport& report) {
   counters_.evaluations = counters_at_start_.evaluations + dynamics_.evaluations() - spare_evaluations_;
   counters_.pairs = counters_at_start_.pairs + dynamics_.mobility().pairs() - spare_pairs_;
   largest_error_ = std::max(largest_error_, report.error);
+  for (const std::string& message : dynamics_.take_messages()) {
+    say(fmt::format("t = {:.6g}: {}", state_.time, message));
+    events_.write("miss", {{"time", state_.time}, {"step", state_.step}, {"message", message}});
+  }
   if (report.rejected == 0) return;
   counters_.rejected += report.rejected;
   events_.write("rejected", {{"time", state_.time}, {"attempts", std::int64_t{report.rejected}}, {"dt", report.dt}});
@@ -236,6 +259,10 @@ void Simulation::report_end(const ExitCode code) {
                         {"evaluations", counters_.evaluations},
                         {"rejected", counters_.rejected},
                         {"pairs", counters_.pairs},
+                        {"velocity_error", card.velocity_errors.largest},
+                        {"checks", card.velocity_errors.n_checks},
+                        {"misses", card.velocity_errors.n_misses},
+                        {"direct_seconds", card.direct_seconds},
                         {"seconds", card.seconds},
                         {"seconds_before", card.seconds_before},
                         {"fluid_seconds", card.fluid},
@@ -263,6 +290,8 @@ CostCard Simulation::make_cost_card() const {
   card.megabytes = 1e-6 * static_cast<double>(trajectory_.bytes_written() + checkpoint_bytes_);
   card.largest_error = largest_error_;
   card.mobility = dynamics_.mobility().describe();
+  card.velocity_errors = dynamics_.mobility().error_record();
+  card.direct_seconds = direct_seconds_ * static_cast<double>(card.evaluations);
   return card;
 }
 
@@ -292,6 +321,10 @@ void Simulation::write_frame(const std::int64_t step, const double time, const C
 void Simulation::record_step(const StepReport& report) {
   StepRecord record = make_step_record(fibers_, dynamics_.springs(), state_, report);
   record.evaluations = counters_.evaluations;
+  const ErrorRecord errors = dynamics_.mobility().error_record();
+  record.velocity_error = errors.last;
+  record.fmm_order = errors.order;
+  record.fmm_misses = errors.n_misses;
   trajectory_.append(record);
 }
 

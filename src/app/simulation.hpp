@@ -87,6 +87,7 @@ class Simulation {
   std::int64_t spare_evaluations_ = 0;  ///< that measured their own cost, and their pairs
   double spare_pairs_ = 0.0;
   FiberDynamics::Seconds spare_seconds_;
+  double direct_seconds_ = 0.0;  ///< that a direct sum would take, estimated; 0 where that is the method
   std::int64_t steps_at_start_ = 0, step_of_checkpoint_ = -1;
   Clock::time_point last_checkpoint_;
   double step_seconds_ = 0.0, integration_seconds_ = 0.0, observables_seconds_ = 0.0, frame_seconds_ = 0.0,

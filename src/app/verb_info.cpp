@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
+#include <skein/config/scene_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 #include <string>
 
 #include "app/json_text.hpp"
+#include "app/mobility_choice.hpp"
 #include "app/verbs.hpp"
 
 namespace skein {
@@ -18,24 +20,28 @@ struct InfoOptions {
   bool json = false;
 };
 
-void print_lines(const std::string& scene, const RunSummary& summary) {
-  fmt::print("title: {}\nstatus: {}\nscene: {}\nframes: {}\nsteps: {}\nsegments: {}\n", summary.title, summary.status,
-             scene, summary.frames, summary.steps, summary.segments);
+void print_lines(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
+  fmt::print("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nframes: {}\nsteps: {}\nsegments: {}\n", summary.title,
+             summary.status, scene, mobility, summary.frames, summary.steps, summary.segments);
   if (std::isfinite(summary.last_time)) fmt::print("last time: {}\n", summary.last_time);
 }
 
-void print_json(const std::string& scene, const RunSummary& summary) {
+void print_json(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
   fmt::print(
-      "{{\n  \"title\": {},\n  \"status\": {},\n  \"scene\": {},\n  \"frames\": {},\n  \"steps\": {},\n"
+      "{{\n  \"title\": {},\n  \"status\": {},\n  \"scene\": {},\n  \"mobility\": {},\n  \"frames\": {},\n  \"steps\": "
+      "{},\n"
       "  \"segments\": {},\n  \"last_time\": {}\n}}\n",
-      quote_json(summary.title), quote_json(summary.status), quote_json(scene), summary.frames, summary.steps,
-      summary.segments, std::isfinite(summary.last_time) ? fmt::format("{}", summary.last_time) : "null");
+      quote_json(summary.title), quote_json(summary.status), quote_json(scene), quote_json(mobility), summary.frames,
+      summary.steps, summary.segments,
+      std::isfinite(summary.last_time) ? fmt::format("{}", summary.last_time) : "null");
 }
 
 int print_info(const InfoOptions& options) {
   const RunSummary summary = read_run_summary(options.folder);
   const std::string scene = RunFolder::open(options.folder).scene().string();
-  options.json ? print_json(scene, summary) : print_lines(scene, summary);
+  const SceneConfig config = read_scene(scene, {}).config;
+  const std::string mobility = describe_choice(choose_mobility(config), config);
+  options.json ? print_json(scene, mobility, summary) : print_lines(scene, mobility, summary);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/json_text.hpp"
+#include "app/mobility_choice.hpp"
 #include "app/scene_summary.hpp"
 #include "app/terminal.hpp"
 #include "app/verbs.hpp"
@@ -38,7 +39,7 @@ void print_json(const bool valid, const std::vector<Problem>& problems, const st
 int validate_scene(const ValidateOptions& options) {
   SceneReading scene;
   try {
-    scene = read_scene(options.scene, options.overrides);
+    scene = read_scene(options.scene, options.overrides, find_mobility_problems);
   } catch (const SceneError& error) {
     if (!options.json) throw;
     print_json(false, error.problems(), {});
@@ -49,7 +50,8 @@ int validate_scene(const ValidateOptions& options) {
     return 0;
   }
   for (const Problem& warning : scene.warnings) print_warning(warning.describe());
-  fmt::print("{}", describe_scene(scene.config));
+  fmt::print("{}mobility: {}\n", describe_scene(scene.config),
+             describe_choice(choose_mobility(scene.config), scene.config));
   return 0;
 }
 

@@ -53,6 +53,20 @@ void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::
   }
 }
 
+// What a key of fmm would change must not be passed over; the tolerance and the like have a meaning in every scene.
+void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneReader& reader,
+                         std::vector<Problem>& problems) {
+  if (hydrodynamics.method != "direct") return;
+  const auto reject = [&](const char* key, const int value) {
+    if (value == 0) return;
+    reader.add(
+        problems, fmt::format("hydrodynamics.{}", key),
+        fmt::format("hydrodynamics.{} {} is of the fast multipole method, and method is \"direct\"", key, value));
+  };
+  reject("order", hydrodynamics.order);
+  reject("leaf_size", hydrodynamics.leaf_size);
+}
+
 void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<Problem>& problems) {
   if (time.method == "euler" && time.step == 0.0) {
     reader.add(problems, "time.step", "time.step must be given and above 0: euler has no error control");
@@ -86,6 +100,7 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
     if (reader.is_sound(path)) check_fiber(scene.fibers[i], path, reader, problems, warnings);
   }
   check_node_count(scene, reader, problems);
+  if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
   if (!reader.is_sound("time")) return;
   check_time(scene.time, reader, problems);
   if (reader.is_sound("output")) check_frame_count(scene, reader, problems);

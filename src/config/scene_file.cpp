@@ -43,7 +43,7 @@ SceneValue parse_scene(const std::string& text, const SceneSource& source) {
 }  // namespace
 
 SceneReading read_scene_text(const std::string& text, const std::string& name,
-                             const std::vector<std::string>& overrides) {
+                             const std::vector<std::string>& overrides, const SceneCheck& check) {
   const SceneSource source(name, overrides);
   SceneValue root = parse_scene(text, source);
   std::vector<Problem> problems;
@@ -55,6 +55,8 @@ SceneReading read_scene_text(const std::string& text, const std::string& name,
   visit_keys(reader, reading.config);
   problems.insert(problems.end(), reader.problems().begin(), reader.problems().end());
   check_scene(reading.config, reader, problems, reading.warnings);
+  if (check && problems.empty())
+    for (const KeyProblem& found : check(reading.config)) reader.add(problems, found.key, found.message);
 
   sort_problems(problems);
   sort_problems(reading.warnings);
@@ -62,7 +64,8 @@ SceneReading read_scene_text(const std::string& text, const std::string& name,
   return reading;
 }
 
-SceneReading read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+SceneReading read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                        const SceneCheck& check) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
@@ -83,7 +86,7 @@ SceneReading read_scene(const std::filesystem::path& file, const std::vector<std
   if (text.size() > n_bytes_allowed) {
     throw_single({file.string(), {}}, {1, 1}, "the file is larger than 16 MiB, which no scene is");
   }
-  return read_scene_text(text, file.string(), overrides);
+  return read_scene_text(text, file.string(), overrides, check);
 }
 
 }  // namespace skein

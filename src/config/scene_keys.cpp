@@ -53,10 +53,41 @@ void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
 
 void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics) {
   visitor.begin_table({"hydrodynamics", false, "How velocities follow from forces."});
-  visitor.choice({"method", "", {}, "how the sum over nodes is made"}, {{"direct", "every pair of nodes"}},
+  visitor.choice({"method", "", {}, "how the sum over nodes is made"},
+                 {{"auto", "fmm where the scene is large enough for it to be faster, else direct"},
+                  {"direct", "every pair of nodes; the keys from tolerance on have no effect"},
+                  {"fmm", "fast multipole method"}},
                  hydrodynamics.method);
   visitor.choice({"precision", "", {}, "arithmetic of a pair of nodes"},
-                 {{"double", "16 digits"}, {"single", "7 digits, about twice as fast"}}, hydrodynamics.precision);
+                 {{"auto", "double in direct sums; in fmm as the tolerance allows"},
+                  {"double", "16 digits"},
+                  {"single", "7 digits, about twice as fast"}},
+                 hydrodynamics.precision);
+  visitor.number({"tolerance", "", between(1e-15, 0.01),
+                  "error of all velocities together (2-norm, relative) that fmm may make: the order, precision and "
+                  "smallest leaves follow from it"},
+                 hydrodynamics.tolerance);
+  visitor.choice({"far_field", "", {}, "how fmm sees distant nodes"},
+                 {{"harmonic", "four harmonic potentials: the fastest and most exact"},
+                  {"stokeslet", "singular Stokeslets"},
+                  {"regularized", "regularized Stokeslets; one blob for all fibers"}},
+                 hydrodynamics.far_field);
+  visitor.integer({"order", "", between(0, 16),
+                   "points per edge of fmm's surfaces; 0: as the tolerance needs; one that does not promise the "
+                   "tolerance is an error, a higher one is used as it is"},
+                  hydrodynamics.order);
+  visitor.integer({"leaf_size", "", between(0, 100000),
+                   "nodes that fmm aims at in a leaf of its tree; 0: as the order needs; leaves stay as large as the "
+                   "tolerance needs in either case"},
+                  hydrodynamics.leaf_size);
+  visitor.integer({"check_every", "", between(0, 1e9),
+                   "evaluations by fmm from one check to the next: 64 of the velocities are compared with direct sums; "
+                   "0: none"},
+                  hydrodynamics.check_every);
+  visitor.choice({"on_miss", "", {}, "when a check finds more error than the tolerance"},
+                 {{"raise_order", "say so, mend this evaluation and go on with a higher order"},
+                  {"stop", "end the run with exit code 76"}},
+                 hydrodynamics.on_miss);
   visitor.end_table();
 }
 
@@ -86,8 +117,9 @@ void visit_output(KeyVisitor& visitor, OutputConfig& output) {
 
 void visit_checkpoint(KeyVisitor& visitor, CheckpointConfig& checkpoint) {
   visitor.begin_table({"checkpoint", false, "From what `skein resume` goes on; one is made at the end of a run, too."});
-  visitor.number({"wall_interval", "seconds of wall time", zero_or_more(), "a checkpoint so often; 0: not by the clock"},
-                 checkpoint.wall_interval);
+  visitor.number(
+      {"wall_interval", "seconds of wall time", zero_or_more(), "a checkpoint so often; 0: not by the clock"},
+      checkpoint.wall_interval);
   visitor.number({"simulated_interval", "time", zero_or_more(), "a checkpoint so often; 0: not by simulated time"},
                  checkpoint.simulated_interval);
   visitor.integer({"keep", "", between(1, 1e6), "how many are kept, the newest"}, checkpoint.keep);

@@ -34,12 +34,15 @@ constexpr Row harmonic_rows[] = {
     {16, 1e-14, 5e-11, 1000, 300},
 };
 
-/// Strengths of Stokeslets, S_0 or S_eps. Without the cutoffs blobs are amplified by the small singular values of these
-/// operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the order.
+/// Strengths of Stokeslets, S_0 or S_eps. Above 12 points no more is promised. Without the cutoffs blobs are amplified
+/// by the small singular values of these operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the
+/// order.
 constexpr Row stokeslet_rows[] = {
-    {4, 1e-4, 5e-3, 150, 64},   {5, 1e-5, 1e-3, 220, 80},    {6, 1e-6, 2e-4, 300, 100},
-    {7, 1e-7, 4e-5, 400, 140},  {8, 1e-8, 1e-5, 500, 180},   {9, 1e-9, 2e-6, 600, 220},
-    {10, 1e-9, 1e-6, 700, 250}, {11, 1e-10, 2e-7, 900, 300}, {12, 1e-10, 1e-7, 1000, 300},
+    {4, 1e-4, 5e-3, 150, 64},     {5, 1e-5, 1e-3, 220, 80},     {6, 1e-6, 2e-4, 300, 100},
+    {7, 1e-7, 4e-5, 400, 140},    {8, 1e-8, 1e-5, 500, 180},    {9, 1e-9, 2e-6, 600, 220},
+    {10, 1e-9, 1e-6, 700, 250},   {11, 1e-10, 2e-7, 900, 300},  {12, 1e-10, 1e-7, 1000, 300},
+    {13, 1e-10, 1e-7, 1100, 300}, {14, 1e-10, 1e-7, 1200, 300}, {15, 1e-10, 1e-7, 1300, 300},
+    {16, 1e-10, 1e-7, 1400, 300},
 };
 
 /// Error between the nearest well-separated boxes over (eps / half-width)^4.
@@ -57,6 +60,9 @@ Rows rows_of(const FarField far_field) {
   return stokeslet_rows;
 }
 
+/// Of the tolerance, that blobs may use up; the order's own error is seldom as large as its bound.
+constexpr double blob_share = 0.5;
+
 /// The best that a far field promises.
 double least_error(const FmmOptions& options) {
   const Rows rows = rows_of(options.far_field);
@@ -65,12 +71,11 @@ double least_error(const FmmOptions& options) {
   return options.precision == FmmPrecision::in_single ? std::max(error, single_error) : error;
 }
 
-/// Half-width below which blobs spoil the far field, length.
-double needed_half_width(const FmmOptions& options, const double blob) {
-  return blob * std::pow(floor_factor(options) / options.tolerance, 0.25);
-}
-
 }  // namespace
+
+double smallest_half_width(const FmmOptions& options, const double max_blob) {
+  return max_blob * std::pow(floor_factor(options) / (blob_share * options.tolerance), 0.25);
+}
 
 double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
 
@@ -80,50 +85,70 @@ double single_precision_error(const double min_blob, const double half_width) {
 
 bool needs_direct_sum(const FmmOptions& options) { return options.tolerance < least_error(options); }
 
-void check_fmm_options(const FmmOptions& options) {
-  const auto refuse = [](const std::string& message) { throw Error(ExitCode::scene_error, message); };
+std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
+  std::vector<OptionProblem> problems;
   const Rows rows = rows_of(options.far_field);
-  if (!(options.tolerance > 0.0)) refuse(fmt::format("tolerance = {}: must be positive", options.tolerance));
-  if (options.leaf_size < 0) refuse(fmt::format("leaf_size = {}: must not be negative", options.leaf_size));
-  if (options.order != 0 && (options.order < rows.front().order || options.order > rows.back().order))
-    refuse(fmt::format("order = {}: must be between {} and {}, or 0 to leave it to the tolerance", options.order,
-                       rows.front().order, rows.back().order));
-  if (needs_direct_sum(options))
-    refuse(
-        fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
-                    "field and precision: raise it, or use method = \"direct\"",
-                    options.tolerance, least_error(options)));
-  if (options.order != 0) {
-    const Row& row = rows[static_cast<std::size_t>(options.order - rows.front().order)];
-    if (row.error > options.tolerance)
-      refuse(
-          fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to leave it "
-                      "to the tolerance",
-                      options.order, row.error, options.tolerance));
+  const bool has_tolerance = options.tolerance > 0.0;
+  const bool has_order = options.order >= rows.front().order && options.order <= rows.back().order;
+  if (!has_tolerance)
+    problems.push_back({"tolerance", fmt::format("tolerance = {}: must be positive", options.tolerance)});
+  if (options.leaf_size < 0)
+    problems.push_back({"leaf_size", fmt::format("leaf_size = {}: must not be negative", options.leaf_size)});
+  if (options.order != 0 && !has_order)
+    problems.push_back(
+        {"order", fmt::format("order = {}: must be between {} and {} with this far field, or 0 to leave it "
+                              "to the tolerance",
+                              options.order, rows.front().order, rows.back().order)});
+  if (has_tolerance && needs_direct_sum(options))
+    problems.push_back(
+        {"tolerance",
+         fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
+                     "field and precision: raise it, or use method = \"direct\"",
+                     options.tolerance, least_error(options))});
+  if (has_tolerance && has_order) {
+    const double error = rows[static_cast<std::size_t>(options.order - rows.front().order)].error;
+    if (error > options.tolerance)
+      problems.push_back(
+          {"order",
+           fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to "
+                       "leave it to the tolerance",
+                       options.order, error, options.tolerance)});
   }
+  return problems;
+}
+
+void check_fmm_options(const FmmOptions& options) {
+  const auto problems = find_fmm_problems(options);
+  if (!problems.empty()) throw Error(ExitCode::scene_error, problems.front().message);
 }
 
 FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const int raised_order) {
   check_fmm_options(options);
   const Rows rows = rows_of(options.far_field);
-  const int least_order = math::larger(options.order, raised_order);
-  const Row* row = &rows.front();
-  while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+  const auto find_row = [&](const int least_order) {
+    const Row* row = &rows.front();
+    while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+    return row;
+  };
+  const Row* const planned = find_row(options.order);
+  const Row* const row = find_row(math::larger(options.order, raised_order));
+  const int n_raises = row->order - planned->order;
 
   FmmPlan plan;
   plan.order = row->order;
   plan.rank = row->rank;
   plan.far_in_single = options.precision == FmmPrecision::in_single ||
-                       (options.precision == FmmPrecision::automatic && options.tolerance >= single_error &&
-                        raised_order == 0);  // single precision may have been why
+                       (options.precision == FmmPrecision::automatic &&
+                        // After a miss, of which single precision may have been the cause, with a margin.
+                        options.tolerance >= (n_raises == 0 ? single_error : 20.0 * single_error));
   plan.near_in_single = plan.far_in_single;
-  plan.singular_cutoff = options.singular_cutoff > 0.0 && raised_order == 0 ? options.singular_cutoff
-                         : plan.far_in_single                               ? std::max(row->cutoff, single_cutoff)
-                                                                            : row->cutoff;
+  plan.singular_cutoff = options.singular_cutoff > 0.0 && n_raises == 0 ? options.singular_cutoff
+                         : plan.far_in_single                           ? std::max(row->cutoff, single_cutoff)
+                                                                        : row->cutoff;
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
   plan.expected_error = plan.far_in_single ? std::max(row->error, single_error) : row->error;
 
-  const double needed = needed_half_width(options, max_blob);
+  const double needed = smallest_half_width(options, max_blob);
   plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
   if (plan.min_half_width < 0.999 * needed)
     throw Error(
@@ -132,7 +157,24 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                     "{:g}): use {:.4g} or more, or 0",
                     options.min_half_width, options.tolerance, max_blob,
                     floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
+  // Blobs may have been the cause as well as the order: a quarter of their error with each raise.
+  plan.min_half_width *= std::exp2(0.5 * n_raises);
+  if (plan.min_half_width > 0.0) plan.blob_error = floor_factor(options) * std::pow(max_blob / plan.min_half_width, 4);
   return plan;
+}
+
+std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
+  const char* const field = options.far_field == FarField::harmonic    ? "harmonic"
+                            : options.far_field == FarField::stokeslet ? "Stokeslet"
+                                                                       : "regularized";
+  std::string text =
+      fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf", field,
+                  plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
+  if (plan.min_half_width > 0.0)
+    text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
+  text += fmt::format(", error of at most {:.1g} expected", plan.expected_error);
+  if (plan.blob_error > 0.0) text += fmt::format(" by the order and {:.1g} by the blobs", plan.blob_error);
+  return text + fmt::format(", {:g} allowed", options.tolerance);
 }
 
 double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool direct_is_symmetric) {

@@ -146,16 +146,20 @@ Series make_step_series(const TrajectoryLayout& layout) {
            {"/observables/dt", Number::float64, {}, "time"},
            {"/observables/error", Number::float64, {}, ""},
            {"/observables/spectral_radius", Number::float64, {}, "1/time"},
-           {"/observables/evaluations", Number::int64, {}, ""}}};
+           {"/observables/evaluations", Number::int64, {}, ""},
+           {"/observables/velocity_error", Number::float64, {}, ""},
+           {"/observables/fmm_order", Number::int32, {}, ""},
+           {"/observables/fmm_misses", Number::int64, {}, ""}}};
 }
 
 void append(Series& series, const StepRecord& record) {
   const auto evaluations = static_cast<double>(record.evaluations);  // exact below 2^53
+  const auto order = static_cast<double>(record.fmm_order), misses = static_cast<double>(record.fmm_misses);
   const auto one = [](const double& value) { return std::span<const double>(&value, 1); };
-  series.append(
-      record.step, record.time,
-      {record.energy, record.length, record.curvature_max, as_doubles(record.end_to_end), one(record.smallest_gap),
-       one(record.dt), one(record.error), one(record.spectral_radius), one(evaluations)});
+  series.append(record.step, record.time,
+                {record.energy, record.length, record.curvature_max, as_doubles(record.end_to_end),
+                 one(record.smallest_gap), one(record.dt), one(record.error), one(record.spectral_radius),
+                 one(evaluations), one(record.velocity_error), one(order), one(misses)});
 }
 
 }  // namespace skein

@@ -16,7 +16,7 @@ import numpy as np
 QUAD = 9  # VTK's number for a quadrilateral
 NO_DIMENSION = {"/observables/error/value", "/observables/evaluations/value", "/parameters/elasto_viscous_number"}
 PER_FIBER = ("energy", "length", "curvature_max", "end_to_end")
-PER_STEP = ("smallest_gap", "dt", "error", "spectral_radius", "evaluations")
+PER_STEP = ("smallest_gap", "dt", "error", "spectral_radius", "evaluations", "velocity_error", "fmm_order", "fmm_misses")
 
 
 def check(condition, message):

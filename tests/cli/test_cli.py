@@ -135,7 +135,8 @@ class GoodScenes(InFreshFolder):
             with self.subTest(scene=scene.name):
                 result = skein("validate", scene)
                 self.assertEqual((result.returncode, result.stderr), (DONE, ""))
-                self.assertIn("1440 nodes", result.stdout)
+                self.assertRegex(result.stdout, r"(?m)^1 fiber, \d+ nodes$")
+                self.assertRegex(result.stdout, r"(?m)^mobility: ")
 
     def test_defaults_are_a_valid_scene(self):
         result = skein("defaults")
@@ -151,6 +152,26 @@ class GoodScenes(InFreshFolder):
         for count, n_nodes in ((40, 720), (50, 900)):
             result = self.validate_content("[fiber]\nsections = 20\n", "--set", f"fiber.sections={count}")
             self.assertIn(f"{n_nodes} nodes", result.stdout)
+
+    def test_the_method_is_named_with_its_reason(self):
+        for overrides, expected in [
+            ([], "direct sum, pairs in double precision; chosen because"),
+            (["fiber.sections=301"], "harmonic far field of order 7 in single precision"),
+            (["fiber.sections=301", "hydrodynamics.tolerance=1e-9"], "chosen because with blobs of 0.00225"),
+            (["fiber.sections=301", "hydrodynamics.tolerance=1e-12"], "chosen because tolerance = 1e-12 is below"),
+            (["hydrodynamics.method=direct", "hydrodynamics.precision=single"], "pairs in single precision"),
+            (["hydrodynamics.method=fmm", "hydrodynamics.precision=double", "hydrodynamics.check_every=0",
+              "hydrodynamics.order=9"], "order 9 in double precision, about 180 nodes a leaf of half-width 0.0154 or more "
+              "(for the blobs), error of at most 3e-07 expected by the order and 5e-06 by the blobs, 1e-05 allowed; never "
+              "checked"),
+        ]:
+            with self.subTest(overrides=overrides):
+                arguments = [word for override in overrides for word in ("--set", override)]
+                result = self.validate_content("[fiber]\n", *arguments)
+                self.assertEqual((result.returncode, result.stderr), (DONE, ""))
+                line = result.stdout.splitlines()[-1]
+                self.assertTrue(line.startswith("mobility: "))
+                self.assertIn(expected, line)
 
     def test_a_doubtful_blob_is_warned_of(self):
         for blob, word in (("0.006", "too thick"), ("0.0008", "leaks")):

@@ -15,8 +15,9 @@ def torture(program, counts, seed=7):
         require(result.returncode == DONE, result.stderr)
         unbroken[name] = final_state(folder), len(step_times(folder))
     for i in range(counts["faults"]):
-        target = ("position", "force", "velocity")[i % 3]
-        name = list(INTEGRATORS)[i // 3 % len(INTEGRATORS)]
+        round_, at = divmod(i, len(INTEGRATORS))
+        target = ("position", "force", "velocity")[(round_ + at) % 3]
+        name = list(INTEGRATORS)[at]
         reference, n_steps = unbroken[name]
         step = 1 if i == 0 else draw.randint(1, n_steps)
         what = f"{name}, {target} of step {step}"

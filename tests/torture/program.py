@@ -32,7 +32,26 @@ INTEGRATORS = {
     "rkc2, fixed step": ["time.step=0.013"],
     "euler": ["time.method=euler", "time.step=2e-4", "time.max_step=1e-3", "time.end=0.05",
               "output.frame_interval=0.004"],
+    # Leaves so small that these few nodes have a far field.
+    "rkc2, fmm": ["hydrodynamics.method=fmm", "hydrodynamics.tolerance=0.01", "hydrodynamics.leaf_size=3",
+                  "hydrodynamics.check_every=7"],
 }
+
+# Apart from each other in space, and each of another size.
+THREE_FIBERS = SCENE.replace("[fiber]", "[[fiber]]").replace("[time]", """
+[[fiber]]
+sections = 9
+nodes_per_section = 6
+blob = 0.004
+center = [0.01, 0.03, 0.004]
+direction = [1.0, -0.2, 0.1]
+[[fiber]]
+sections = 14
+nodes_per_section = 5
+blob = 0.003
+center = [-0.01, -0.025, 0.01]
+direction = [1.0, 0.1, 0.4]
+[time]""")
 
 
 class Failed(Exception):
@@ -50,6 +69,8 @@ class Program:
         self.folder = pathlib.Path(folder)
         self.scene = self.folder / "scene.toml"
         self.scene.write_text(SCENE)
+        self.three_fibers = self.folder / "three_fibers.toml"
+        self.three_fibers.write_text(THREE_FIBERS)
 
     def fresh(self, name):
         """A path without anything there."""
@@ -60,8 +81,8 @@ class Program:
     def environment(self, threads=1, **variables):
         return {**os.environ, "OMP_NUM_THREADS": str(threads), **variables}
 
-    def run_command(self, folder, overrides=(), *options):
-        command = [self.path, "run", str(self.scene), "-o", str(folder), "-q", *options]
+    def run_command(self, folder, overrides=(), *options, scene=None):
+        command = [self.path, "run", str(scene or self.scene), "-o", str(folder), "-q", *options]
         for override in overrides:
             command += ["--set", override]
         return command
@@ -87,8 +108,8 @@ class Program:
             text=True,
         )
 
-    def run(self, folder, overrides=(), *options, **keywords):
-        return self.call(self.run_command(folder, overrides, *options), **keywords)
+    def run(self, folder, overrides=(), *options, scene=None, **keywords):
+        return self.call(self.run_command(folder, overrides, *options, scene=scene), **keywords)
 
     def resume(self, folder, *options, **keywords):
         return self.call([self.path, "resume", folder, "-q", *options], **keywords)

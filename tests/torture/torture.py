@@ -24,7 +24,7 @@ PROMISES = {
     "readers": "read while it writes",
 }
 COUNTS = {
-    "short": dict(kills=6, restarts=3, stops=1, full_disks=2, write_errors=5, damages=8, scenes=60, faults=4,
+    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, scenes=60, faults=4,
                   readings=20),
     "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, scenes=2000, faults=50,
                   readings=200),

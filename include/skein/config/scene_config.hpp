@@ -34,8 +34,14 @@ struct FiberConfig {
 };
 
 struct HydrodynamicsConfig {
-  std::string method = "direct";     ///< "direct"
-  std::string precision = "double";  ///< "double", "single": arithmetic of a pair
+  std::string method = "auto";          ///< "auto", "direct", "fmm"
+  std::string precision = "auto";       ///< "auto", "double", "single": arithmetic of a pair
+  double tolerance = 1e-5;              ///< of velocities, relative (2-norm), where they are not summed directly
+  std::string far_field = "harmonic";   ///< "harmonic", "stokeslet", "regularized"
+  int order = 0;                        ///< points per edge of the surfaces; 0: as the tolerance needs
+  int leaf_size = 0;                    ///< nodes per leaf of the tree; 0: as the order needs
+  int check_every = 50;                 ///< evaluations from check to check; 0: no checks
+  std::string on_miss = "raise_order";  ///< "raise_order", "stop"
 };
 
 struct TimeConfig {

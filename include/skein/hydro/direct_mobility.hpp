@@ -16,6 +16,7 @@ class DirectMobility final : public Mobility {
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   double pairs() const override { return pairs_; }
   std::string describe() const override;
+  void visit_memory(MemoryVisitor&) override {}
 
  private:
   double viscosity_;

@@ -7,8 +7,12 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace skein {
+
+class FmmEvaluator;
+struct HostNodes;
 
 /// What the last evaluation met: for the cost card, the benchmarks and the tests.
 struct FmmStatistics {
@@ -22,16 +26,14 @@ struct FmmStatistics {
   double memory_bytes = 0.0;     ///< of the tree, the nodes' copies, coefficients and operators
   /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves.
   double operators_seconds = 0.0, tree_seconds = 0.0, sort_seconds = 0.0, far_seconds = 0.0, leaf_seconds = 0.0;
-  double checked_error = -1.0;  ///< of the last check against direct sums, 2-norm, relative; -1: none yet
-  int n_checks = 0, n_misses = 0;
-  std::string last_miss;  ///< what the last miss was, for the user
 };
 
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
 /// the approximations). The tree is rebuilt in every call, operators are kept. Runs on the host; device arrays are
-/// copied. Source: Ying, Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
+/// copied. A node whose position is not finite makes all velocities not a number, as in a direct sum. Source: Ying,
+/// Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
@@ -44,6 +46,9 @@ class FmmMobility final : public Mobility {
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   double pairs() const override { return pairs_; }
   std::string describe() const override;
+  void visit_memory(MemoryVisitor& visitor) override;
+  ErrorRecord error_record() const override { return record_; }
+  std::vector<std::string> take_messages() override;
 
   /// Relative error (2-norm) of one evaluation against direct sums at n_sample targets, evenly spread over the indices.
   double measure_error(const Sources& sources, const ConstVectors& target, int n_sample);
@@ -51,18 +56,23 @@ class FmmMobility final : public Mobility {
   const FmmStatistics& statistics() const;
 
  private:
-  class Evaluator;
-
-  /// False where the direct sum did it.
-  bool add_unchecked(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
-  double compare(const Sources& sources, const ConstVectors& target, const ConstVectors& velocity, int n_sample);
+  /// True where direct sums are the rule for so many pairs, before a tree is built.
+  bool sums_directly(double n_pairs) const;
+  /// own_velocity_ = the sum; false where a direct sum is cheaper.
+  bool evaluate(const HostNodes& nodes);
+  /// False where own_velocity_, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
+  bool passes_check(const Sources& sources, const HostNodes& nodes, const Vectors& velocity);
 
   double viscosity_;
   FmmOptions options_;
   DirectMobility direct_;
+  std::unique_ptr<FmmEvaluator> evaluator_;
+  HostVectors own_velocity_;
   double pairs_ = 0.0;
-  std::int64_t n_evaluations_ = 0;
-  std::unique_ptr<Evaluator> evaluator_;
+  int raised_order_ = 0;            ///< that a check found necessary; 0: as planned
+  std::int64_t n_evaluations_ = 0;  ///< decides which are checked
+  ErrorRecord record_;
+  std::vector<std::string> messages_;
 };
 
 }  // namespace skein

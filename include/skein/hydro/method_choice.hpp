@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -22,7 +23,7 @@ enum class OnMiss {
 struct FmmOptions {
   double tolerance = 1e-4;  ///< relative error of all velocities together (2-norm)
   FarField far_field = FarField::harmonic;
-  int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16 (harmonic), 4 .. 12
+  int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16
   int leaf_size = 0;            ///< nodes per leaf aimed at
   double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
   FmmPrecision precision = FmmPrecision::automatic;
@@ -43,10 +44,20 @@ struct FmmPlan {
   double min_half_width = 0.0;  ///< length
   bool near_in_single = false;  ///< allowed; see single_precision_error
   bool far_in_single = false;
-  double expected_error = 0.0;  ///< bound from the table, for any arrangement of nodes
+  double expected_error = 0.0;  ///< by the order: bound from the table, for any arrangement of nodes
+  double blob_error = 0.0;      ///< in the smallest leaves, by the floor law
 };
 
-/// @throws Error(scene_error) where the options contradict each other or ask for what cannot be delivered.
+/// What is wrong with one option, in words that begin with its name and value.
+struct OptionProblem {
+  std::string option;
+  std::string message;
+};
+
+/// Where the options contradict each other or ask for what cannot be delivered, whatever the nodes.
+std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options);
+
+/// @throws Error(scene_error) with the first of these problems.
 void check_fmm_options(const FmmOptions& options);
 
 /// The cheapest plan that meets the tolerance, from a table measured with perf/bench_fmm: the same on every machine, so
@@ -55,6 +66,12 @@ void check_fmm_options(const FmmOptions& options);
 /// @param raised_order  an order that a check found necessary; 0: none
 /// @throws Error(scene_error) where none meets it, or where what is set by hand does not.
 FmmPlan choose_fmm_plan(const FmmOptions& options, double max_blob, int raised_order);
+
+/// Far field, order, leaves, precision, expected error: one line.
+std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan);
+
+/// Half-width below which leaves do not meet the tolerance, because of the blobs, length.
+double smallest_half_width(const FmmOptions& options, double max_blob);
 
 /// True where no plan reaches the tolerance and only direct sums do.
 bool needs_direct_sum(const FmmOptions& options);

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <skein/core/memory_visitor.hpp>
 #include <skein/core/types.hpp>
 
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -11,6 +15,16 @@ struct Sources {
   ConstVectors position;  ///< [n_sources, 3], length
   ConstVectors force;     ///< [n_sources, 3], force exerted BY the node ON the fluid
   ConstScalars blob;      ///< [n_sources], regularization length, > 0
+};
+
+/// What a method that approximates knows of its own error, since the beginning of the run.
+struct ErrorRecord {
+  int order = 0;  ///< of the last evaluation's expansions; 0: it was a direct sum
+  /// Of the last check against direct sums and of the worst, relative (2-norm); not a number before the first.
+  double last = std::numeric_limits<double>::quiet_NaN(), largest = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t n_checks = 0;
+  std::int64_t n_misses = 0;       ///< checks that found more than the tolerance
+  std::int64_t n_approximate = 0;  ///< evaluations that were no direct sums
 };
 
 /// Fluid response to forces: velocity += M(target, source) force. Free space, no inertia; self terms are included.
@@ -31,8 +45,18 @@ class Mobility {
   /// Source-target pairs a direct sum would have needed for the calls so far: the unit of the cost card.
   virtual double pairs() const = 0;
 
-  /// One line for the first lines of a run: method, precision, why.
+  /// One line for the first lines of a run: method, precision, expected error.
   virtual std::string describe() const = 0;
+
+  /// All that later calls depend on besides their arguments, and the error record: what a restart needs. After an
+  /// exception the caller brings back what was there before.
+  virtual void visit_memory(MemoryVisitor& visitor) = 0;
+
+  /// Of a method without an error of its own, empty.
+  virtual ErrorRecord error_record() const { return {}; }
+
+  /// What the user should be told of the calls since this was last asked, one text each.
+  virtual std::vector<std::string> take_messages() { return {}; }
 };
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <variant>
@@ -26,9 +27,12 @@ struct StepRecord {
   std::int64_t step = 0;
   double time = 0.0;
   double dt = 0.0;
-  double error = 0.0;                 ///< estimated local error over tolerance
-  double spectral_radius = 0.0;       ///< 1 / time
-  std::int64_t evaluations = 0;       ///< of the right-hand side, since the start of the run
+  double error = 0.0;            ///< estimated local error over tolerance
+  double spectral_radius = 0.0;  ///< 1 / time
+  std::int64_t evaluations = 0;  ///< of the right-hand side, since the start of the run
+  double velocity_error = std::numeric_limits<double>::quiet_NaN();  ///< last one measured, relative; see ErrorRecord
+  int fmm_order = 0;                                                 ///< of the last evaluation; 0: summed directly
+  std::int64_t fmm_misses = 0;        ///< checks that found more than the tolerance, since the start of the run
   double smallest_gap = 0.0;          ///< between surfaces of distant sections, length
   std::vector<double> energy;         ///< [n_fibers], elastic
   std::vector<double> length;         ///< [n_fibers], of the centreline

@@ -7,6 +7,7 @@
 #include <skein/time/right_hand_side.hpp>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace skein {
@@ -25,6 +26,10 @@ class FiberDynamics final : public RightHandSide {
   static constexpr double burst_ratio = 2.0;
 
   std::int64_t evaluations() const override { return evaluations_; }
+
+  /// All that later velocities depend on besides the arguments: the mobility's.
+  void visit_memory(MemoryVisitor& visitor) { mobility_->visit_memory(visitor); }
+  std::vector<std::string> take_messages() { return mobility_->take_messages(); }
 
   /// Wall time spent in evaluations, by parts, seconds. On a device, where waiting costs, an estimate from one in
   /// sixteen of them.

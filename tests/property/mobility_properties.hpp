@@ -1,0 +1,54 @@
+#pragma once
+
+#include <skein/hydro/mobility.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "tests/property/random_fluid.hpp"
+#include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <functional>
+#include <memory>
+#include <ostream>
+
+namespace skein {
+
+/// One implementation of Mobility. The table of all stands at the end of test_mobility.cpp.
+struct Row {
+  const char* name;
+  std::function<std::unique_ptr<Mobility>(double viscosity)> make;
+  double tolerance;  ///< error of a velocity over the largest velocity
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Row& row) { return out << row.name; }
+
+class MobilityProperties : public ::testing::TestWithParam<Row> {
+ protected:
+  double tolerance() const { return GetParam().tolerance; }
+
+  /// Velocities at other points than the sources' own array, even where these are equal.
+  std::vector<Vec3> compute_at(const reference::PointForces& from, const std::vector<Vec3>& target,
+                               const double viscosity) const {
+    const auto mobility = GetParam().make(viscosity);
+    const Vectors velocity("test::velocity", target.size());
+    mobility->add_velocity(on_device(from), to_device("test::target", target), velocity);
+    return to_host(velocity);
+  }
+
+  /// Velocities of the sources: the targets are the same array.
+  std::vector<Vec3> compute(const reference::PointForces& from, const double viscosity) const {
+    const auto mobility = GetParam().make(viscosity);
+    const Sources sources = on_device(from);
+    const Vectors velocity("test::velocity", from.position.size());
+    mobility->add_velocity(sources, sources.position, velocity);
+    return to_host(velocity);
+  }
+
+  static Sources on_device(const reference::PointForces& from) {
+    return {to_device("test::position", from.position), to_device("test::force", from.force),
+            to_device("test::blob", from.blob)};
+  }
+};
+
+}  // namespace skein
