@@ -26,14 +26,16 @@ struct StepRecord {
   std::int64_t step = 0;
   double time = 0.0;
   double dt = 0.0;
-  double error = 0.0;                 ///< estimated local error over tolerance
-  double spectral_radius = 0.0;       ///< 1 / time
-  std::int64_t evaluations = 0;       ///< of the right-hand side, since the start of the run
-  double smallest_gap = 0.0;          ///< between surfaces of distant sections, length
-  std::vector<double> energy;         ///< [n_fibers], elastic
-  std::vector<double> length;         ///< [n_fibers], of the centreline
-  std::vector<double> curvature_max;  ///< [n_fibers], 1 / length
-  std::vector<Vec3> end_to_end;       ///< [n_fibers], last section centroid - first, length
+  double error = 0.0;                   ///< estimated local error over tolerance
+  double spectral_radius = 0.0;         ///< 1 / time
+  std::int64_t evaluations = 0;         ///< of the right-hand side, since the start of the run
+  double smallest_gap = 0.0;            ///< between surfaces of distant sections, length
+  std::vector<double> energy;           ///< [n_fibers], elastic
+  std::vector<double> length;           ///< [n_fibers], of the centreline
+  std::vector<double> curvature_max;    ///< [n_fibers], 1 / length
+  std::vector<double> symmetry_defect;  ///< [n_fibers], departure from odd symmetry over length
+  std::vector<double> out_of_plane;     ///< [n_fibers], largest distance from the plane z = centroid's, length
+  std::vector<Vec3> end_to_end;         ///< [n_fibers], last section centroid - first, length
 };
 
 /// A number, or a list such as one number per fiber, with its unit ("" where it has no dimension).
