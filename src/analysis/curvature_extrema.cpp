@@ -44,6 +44,18 @@ std::vector<CurvatureExtremum> find_curvature_extrema(const std::span<const doub
   return extrema;
 }
 
+LineFit ExtremumTrack::fit() const {
+  double largest = 0.0;
+  for (const double kappa : curvature) largest = std::max(largest, std::abs(kappa));
+  std::vector<double> moments, places;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (std::abs(curvature[i]) < 0.5 * largest) continue;
+    moments.push_back(time[i]);
+    places.push_back(arclength[i]);
+  }
+  return fit_line(moments, places);
+}
+
 const char* name_of(const Wave wave) {
   switch (wave) {
     case Wave::standing:

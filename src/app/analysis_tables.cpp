@@ -100,6 +100,17 @@ void add_tracks(const FiberSummary& summary, const double fiber_length, const st
   arrays.push_back(std::move(tracks));
 }
 
+/// Of the circle at the first section's end; NaN where there is no hook.
+NamedArray make_hook_centers(const FiberHistory& history, const std::string& group) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  NamedArray centers{group + "first_hook_center", "length", {history.time().size(), 3}, {}};
+  for (const auto& hook : history.hooks(FiberEnd::first)) {
+    const Vec3 center = hook ? hook->circle.center : Vec3{none, none, none};
+    centers.values.insert(centers.values.end(), {center.x, center.y, center.z});
+  }
+  return centers;
+}
+
 std::string list_regimes() {
   std::string text;
   for (int i = 0; i <= static_cast<int>(Regime::three_dimensional); ++i)
@@ -132,12 +143,21 @@ void write_analysis(const RunAnalysis& analysis, const std::filesystem::path& fo
     const FiberHistory& history = analysis.histories[f];
     arrays.push_back({group + "signed_curvature", "1/length", {n_frames, n_sections}, history.curvature()});
     arrays.push_back({group + "arclength", "length", {n_frames, n_sections}, history.arclength()});
-    add_tracks(history.summarize(), analysis.fibers[f].length(), group, arrays);
+    const FiberSummary summary = history.summarize();
+    add_tracks(summary, analysis.fibers[f].length(), group, arrays);
+    arrays.push_back(make_hook_centers(history, group));
+    NamedArray snaking{group + "snaking", "", {0, 5}, {}};
+    if (const auto& s = summary.snaking) {
+      snaking.shape[0] = 1;
+      snaking.values = {s->begin, s->end, s->hook_radius, s->speed, s->determination};
+    }
+    arrays.push_back(std::move(snaking));
   }
   write_array_file(folder / "diagnostics.h5", arrays,
                    {{"regimes", list_regimes()},
                     {"track_points", "track, time, arclength, signed curvature"},
                     {"tracks", "first time, last time, intercept, speed, determination, wave"},
+                    {"snaking", "from, to, hook radius, speed, determination"},
                     {"waves", "0 standing, 1 travelling, 2 unclear"}});
   write_csv(folder / "diagnostics.csv", table);
 }

@@ -9,7 +9,7 @@
 namespace skein {
 
 SceneConfig make_paper_scene(const int sections, const double end) {
-  SceneConfig scene;
+  SceneConfig scene;  // whose flow is the paper's by default: shear of rate 2.5
   FiberConfig fiber;
   fiber.sections = sections;
   fiber.nodes_per_section = 18;
@@ -17,8 +17,6 @@ SceneConfig make_paper_scene(const int sections, const double end) {
   fiber.spring_stiffness = 0.0112;
   fiber.blob = 0.00225;
   scene.fibers = {fiber};
-  scene.flow.kind = "shear";
-  scene.flow.rate = 2.5;
   scene.time.end = end;
   scene.output.frame_interval = 0.05;
   scene.title = fmt::format("Fiber of {} sections in shear (LaGrone et al. 2019)", sections);

@@ -24,7 +24,9 @@ struct ExtremumTrack {
   std::vector<double> time, arclength, curvature;
   bool is_open = true;  ///< while tracking: may go on
 
-  LineFit fit() const { return fit_line(time, arclength); }
+  /// Arclength over time while |curvature| is at least half of the track's largest: how an extremum comes and goes is
+  /// no wave.
+  LineFit fit() const;
 };
 
 enum class Wave { standing, travelling, unclear };
