@@ -17,6 +17,7 @@ from kymograph import cell_edges
 from run_reader import Nothing, PlotError, Run
 
 # The times of the paper's snapshots.
+ASPECT = 1.75  # of a snapshot
 SHORT = {"L0139": (0, 4.95, 5.45, 5.7, 7, 10.75), "L0196": (0, 5.65, 6.5, 7.15, 8.75, 13.5),
          "L0523": (0, 6.25, 8, 10.5, 12.75, 25)}
 LONG = {"L0931": (0, 4.95, 13.35, 16.25, 18.25, 20.3, 23.75, 25.5, 28, 30, 30.75, 31.25),
@@ -67,16 +68,18 @@ def draw_snapshots(runs):
     if not columns:
         raise Nothing("none of its runs is there")
     n_rows = max(len(times) for _, times in columns)
+    width = style.WIDTH / 3.0
     figure, panels = plt.subplots(n_rows, len(columns), squeeze=False,
-                                  figsize=(style.WIDTH * len(columns) / 3.0, 0.35 + 1.02 * n_rows))
+                                  figsize=(width * len(columns), 0.4 + width / ASPECT * n_rows))
     figure.subplots_adjust(left=0.01, right=0.99, bottom=0.01, top=1.0 - 0.4 / figure.get_figheight(), hspace=0.04,
                            wspace=0.02)
-    panel_width = 72.0 * style.WIDTH / 3.0 * 0.97
+    panel_width = 72.0 * width * 0.97
     for c, (name, times) in enumerate(columns):
         run = runs[name]
-        half = 0.55 * run.lengths[0]
-        height = 2.0 * half / 2.35  # of the window, as flat as the panels are
-        box = ((-half, half), (-0.5 * height, 0.5 * height))
+        extents = [np.ptp(run.centreline(frame)[:, :2].astype(float), axis=0) for _, frame in frames_at(run, times)]
+        widest, highest = np.max(extents, axis=0) + 4.0 * run.radius[0]
+        half = 0.52 * max(widest, highest * ASPECT)
+        box = ((-half, half), (-half / ASPECT, half / ASPECT))
         panels[0, c].set_title(rf"$L = {run.lengths[0]:.3f}$,  $\bar\mu = {number(run)}$")
         for row in range(n_rows):
             panel = panels[row, c]
@@ -88,8 +91,8 @@ def draw_snapshots(runs):
             shifted = tuple((low + m, high + m) for (low, high), m in zip(box, middle))
             draw_tube(panel, run, found[0][1], shifted, panel_width / (2.0 * half), style.COLOURS[c])
             panel.text(0.03, 0.95, f"t = {found[0][0]:g}", transform=panel.transAxes, ha="left", va="top", fontsize=8)
-        add_scale(panels[n_rows - 1, c], 0.02 if name != "L0523" else 0.1, shifted,
-                  f"{0.02 if name != 'L0523' else 0.1:g} $L_0$")
+        bar = 0.05 if name != "L0523" else 0.1
+        add_scale(panels[n_rows - 1, c], bar, shifted, f"{bar:g} $L_0$")
     return figure
 
 
@@ -172,7 +175,8 @@ def draw_hooks(runs):
                    color=style.COLOURS[0], label="hook radius ($L_0$)")
     right.plot(numbers, [row[3] for _, _, row, _ in found], "D", color=style.COLOURS[1], label="snaking speed ($L_0/T$)")
     right.set_xscale("log")
-    right.set_xlim(min(numbers) / 3.0, max(numbers) * 3.0)
+    right.set_xlim(10.0 ** np.floor(np.log10(min(numbers)) - 0.3), 10.0 ** np.ceil(np.log10(max(numbers)) + 0.3))
+    right.xaxis.set_minor_formatter(plt.NullFormatter())
     right.set_ylim(0.0, 1.5 * max(row[3] for _, _, row, _ in found))
     right.set_xlabel(r"elasto-viscous number $\bar\mu$")
     right.legend(frameon=False, loc="upper left")
@@ -193,6 +197,8 @@ def draw_hook(panel, figure, run, time):
     panel.set_box_aspect(0.8)
     panel.set_xlim(middle[0] - half, middle[0] + half)
     panel.set_ylim(middle[1] - 0.8 * half, middle[1] + 0.8 * half)
+    panel.xaxis.set_major_locator(plt.MaxNLocator(4))
+    panel.yaxis.set_major_locator(plt.MaxNLocator(5))
     figure.draw_without_rendering()
     inches = panel.get_position().width * figure.get_figwidth()
     shapes.add_tubes(panel, run, line, 72.0 * inches / (2.0 * half), lambda f, _: "#b9d7ea")

@@ -40,7 +40,7 @@ std::vector<ExtremumTrack> track_extrema(std::span<const double> time,
 
 /// Travelling: a straight line explains at least 0.8 of the motion, which spans at least `travelling_span` of the
 /// fiber's length. Standing: the motion spans less.
-inline constexpr double travelling_span = 0.15;
+inline constexpr double travelling_span = 0.25;
 Wave judge_wave(const ExtremumTrack& track, double fiber_length);
 
 }  // namespace skein
