@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 struct PhaseOptions {
   std::string output = "phases";
-  double from = 0.08, to = 0.6, end = 16.0;
+  double from = 0.08, to = 0.6, end = 30.0;
   int count = 20, nodes_per_section = 18, threads = 0;
   std::vector<std::string> perturbation;  ///< overrides
   double max_walltime = std::numeric_limits<double>::infinity();
