@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <skein/analysis/centreline.hpp>
+#include <skein/analysis/shape.hpp>
 
 namespace skein {
 
@@ -13,6 +14,14 @@ Frame make_frame(const std::vector<Fiber>& fibers, const std::int64_t step, cons
     frame.curvature.insert(frame.curvature.end(), curvature.begin(), curvature.end());
   }
   return frame;
+}
+
+std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame& frame) {
+  std::vector<Regime> regimes;
+  for (const Fiber& fiber : fibers)
+    regimes.push_back(classify_shape(
+        measure_shape(centreline_of(fiber, frame.centreline), choose_curvature_reach(fiber)), fiber.config.radius));
+  return regimes;
 }
 
 StepRecord make_step_record(const std::vector<Fiber>& fibers, const SpringForces& springs, const State& state,
@@ -31,6 +40,8 @@ StepRecord make_step_record(const std::vector<Fiber>& fibers, const SpringForces
     const auto curvature = compute_curvature(line);
     record.length.push_back(compute_length(line));
     record.curvature_max.push_back(*std::max_element(curvature.begin(), curvature.end()));
+    record.symmetry_defect.push_back(compute_symmetry_defect(line));
+    record.out_of_plane.push_back(compute_out_of_plane(line));
     record.end_to_end.push_back(compute_end_to_end(line));
   }
   return record;

@@ -158,6 +158,8 @@ ExitCode Simulation::run() {
   if (counters_.next_frame == 0) {
     write_frame(0, 0.0, state_.position);
     counters_.next_frame = 1;
+  } else {
+    regimes_ = classify_frame(fibers_, make_frame(fibers_, state_.step, state_.time, state_.position));
   }
   try {
     advance_to_end();
@@ -315,7 +317,23 @@ void Simulation::write_frames_up_to(const double time) {
 }
 
 void Simulation::write_frame(const std::int64_t step, const double time, const ConstVectors& position) {
-  trajectory_.append(make_frame(fibers_, step, time, position));
+  const Frame frame = make_frame(fibers_, step, time, position);
+  trajectory_.append(frame);
+  note_regimes(frame);
+}
+
+void Simulation::note_regimes(const Frame& frame) {
+  const auto regimes = classify_frame(fibers_, frame);
+  for (std::size_t f = 0; f < regimes.size() && !regimes_.empty(); ++f) {
+    if (regimes[f] == regimes_[f]) continue;
+    events_.write("regime", {{"time", frame.time},
+                             {"fiber", static_cast<std::int64_t>(f)},
+                             {"regime", std::string(name_of(regimes[f]))},
+                             {"before", std::string(name_of(regimes_[f]))}});
+    log_.write(fmt::format("t = {:.6g}: fiber {} is in regime {}, was in {}", frame.time, f, name_of(regimes[f]),
+                           name_of(regimes_[f])));
+  }
+  regimes_ = regimes;
 }
 
 void Simulation::record_step(const StepReport& report) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <skein/analysis/regime.hpp>
 #include <skein/config/scene_config.hpp>
 #include <skein/core/error.hpp>
 #include <skein/io/checkpoint_folder.hpp>
@@ -58,6 +59,7 @@ class Simulation {
   void save_checkpoint();
   void save_last_good_state(const Error& error);
   void write_frames_up_to(double time);
+  void note_regimes(const Frame& frame);
   void write_frame(std::int64_t step, double time, const ConstVectors& position);
   void record_step(const StepReport& report);
   void report_end(ExitCode code);
@@ -82,6 +84,7 @@ class Simulation {
   CheckpointFolder checkpoints_;
   ProgressReport progress_;
   Vectors frame_position_;
+  std::vector<Regime> regimes_;  ///< [n_fibers], of the last frame
 
   Counters counters_, counters_at_start_;
   std::int64_t spare_evaluations_ = 0;  ///< that measured their own cost, and their pairs

@@ -3,12 +3,17 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <skein/config/scene_file.hpp>
 #include <skein/core/error.hpp>
+#include <skein/core/runtime.hpp>
+#include <skein/io/run_summary.hpp>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include "app/child_process.hpp"
+#include "app/plot_scripts.hpp"
+#include "app/run_analysis.hpp"
+#include "app/terminal.hpp"
 #include "app/verbs.hpp"
 
 namespace skein {
@@ -19,20 +24,24 @@ namespace fs = std::filesystem;
 struct PlotOptions {
   std::string folder;
   std::vector<double> times;
-  std::string output;
+  std::string output, format = "png";
+  bool movie = false;
 };
 
-// Beside an installed program, else in the sources that this program was built from.
-fs::path find_script() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path places[] = {program.parent_path() / SKEIN_PLOTS_FROM_PROGRAM, SKEIN_PLOTS_IN_SOURCES};
-  for (const fs::path& place : places) {
-    const fs::path script = (place / "plot_run.py").lexically_normal();
-    if (fs::is_regular_file(script, error)) return script;
-  }
-  throw Error(ExitCode::missing_input, fmt::format("the plot script plot_run.py is neither in {} nor in {}",
-                                                   places[0].lexically_normal().string(), places[1].string()));
+// Several pictures are of what `skein analyze` measures. Energies and powers take an evaluation of the fluid for each
+// frame, which large runs are asked for only by the verb itself.
+void refresh_analysis(const fs::path& path) {
+  std::error_code ignored;
+  const RunFolder folder = RunFolder::open(path);
+  const fs::path tables = folder.analysis() / "diagnostics.h5";
+  if (fs::exists(tables, ignored) &&
+      fs::last_write_time(tables, ignored) >= fs::last_write_time(folder.index(), ignored))
+    return;
+  constexpr double most_pairs = 1e11;
+  const auto n_nodes = static_cast<double>(count_nodes(make_fibers(read_scene(folder.scene(), {}).config.fibers)));
+  const double pairs = n_nodes * n_nodes * static_cast<double>(read_run_summary(path).frames);
+  const Runtime runtime;
+  write_analysis(analyze_run(folder, pairs <= most_pairs), folder.analysis());
 }
 
 int plot_run(const PlotOptions& options) {
@@ -40,13 +49,18 @@ int plot_run(const PlotOptions& options) {
   if (!fs::is_directory(options.folder, error)) {
     throw Error(ExitCode::missing_input, fmt::format("the run folder {} is not there", options.folder));
   }
+  try {
+    refresh_analysis(options.folder);
+  } catch (const Error& cause) {  // other pictures may be possible still
+    print_warning(fmt::format("the run is not analyzed: {}", cause.what()));
+  }
   // Made absolute, so that a folder whose name begins with a dash is no option.
-  std::vector<std::string> arguments{find_script().string(), fs::absolute(options.folder).string()};
+  std::vector<std::string> arguments{fs::absolute(options.folder).string()};
   if (!options.times.empty()) arguments.push_back(fmt::format("--times={}", fmt::join(options.times, ",")));
   if (!options.output.empty()) arguments.push_back("--output=" + options.output);
-  const int code = run_program(SKEIN_PYTHON, arguments);
-  // The interpreter's own codes, such as 1 after an uncaught exception, would say something else here.
-  return code == 0 || code >= static_cast<int>(ExitCode::usage) ? code : static_cast<int>(ExitCode::internal);
+  arguments.push_back("--format=" + options.format);
+  if (options.movie) arguments.push_back("--movie");
+  return run_plot_script("plot_run.py", arguments);
 }
 
 }  // namespace
@@ -59,10 +73,16 @@ void add_plot_verb(CLI::App& app, Action& action) {
       ->type_name("T1,T2,...")
       ->delimiter(',');
   verb->add_option("-o,--output", options->output, "Folder for the pictures")->type_name("FOLDER");
+  verb->add_option("--format", options->format, "Of the pictures; png without")
+      ->type_name("png|pdf|svg")
+      ->check(CLI::IsMember({"png", "pdf", "svg"}));
+  verb->add_flag("--movie", options->movie, "Also movie.mp4, for which ffmpeg must be installed");
   verb->footer(
       "Examples:\n"
       "  skein plot tumbling\n"
-      "  skein plot tumbling --times 4.95,5.44,10.9 -o pictures");
+      "  skein plot tumbling --times 4.95,5.44,10.9 -o pictures --format pdf\n"
+      "  skein plot tumbling --movie\n"
+      "The run is analyzed first ('skein analyze') if it has changed since the last time.");
   verb->callback([options, &action] { action = [options] { return plot_run(*options); }; });
 }
 

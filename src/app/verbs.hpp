@@ -17,6 +17,9 @@ void add_verify_verb(CLI::App& app, Action& action);
 void add_validate_verb(CLI::App& app, Action& action);
 void add_defaults_verb(CLI::App& app, Action& action);
 void add_info_verb(CLI::App& app, Action& action);
+void add_analyze_verb(CLI::App& app, Action& action);
+void add_reproduce_verb(CLI::App& app, Action& action);
+void add_phases_verb(CLI::App& app, Action& action);
 void add_plot_verb(CLI::App& app, Action& action);
 
 }  // namespace skein

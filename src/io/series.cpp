@@ -141,6 +141,8 @@ Series make_step_series(const TrajectoryLayout& layout) {
           {{"/observables/energy", Number::float64, {n_fibers}, "force*length"},
            {"/observables/length", Number::float64, {n_fibers}, "length"},
            {"/observables/curvature_max", Number::float64, {n_fibers}, "1/length"},
+           {"/observables/symmetry_defect", Number::float64, {n_fibers}, ""},
+           {"/observables/out_of_plane", Number::float64, {n_fibers}, "length"},
            {"/observables/end_to_end", Number::float64, {n_fibers, 3}, "length"},
            {"/observables/smallest_gap", Number::float64, {}, "length"},
            {"/observables/dt", Number::float64, {}, "time"},
@@ -157,9 +159,9 @@ void append(Series& series, const StepRecord& record) {
   const auto order = static_cast<double>(record.fmm_order), misses = static_cast<double>(record.fmm_misses);
   const auto one = [](const double& value) { return std::span<const double>(&value, 1); };
   series.append(record.step, record.time,
-                {record.energy, record.length, record.curvature_max, as_doubles(record.end_to_end),
-                 one(record.smallest_gap), one(record.dt), one(record.error), one(record.spectral_radius),
-                 one(evaluations), one(record.velocity_error), one(order), one(misses)});
+                {record.energy, record.length, record.curvature_max, record.symmetry_defect, record.out_of_plane,
+                 as_doubles(record.end_to_end), one(record.smallest_gap), one(record.dt), one(record.error),
+                 one(record.spectral_radius), one(evaluations), one(record.velocity_error), one(order), one(misses)});
 }
 
 }  // namespace skein

@@ -18,7 +18,7 @@ import numpy as np
 sys.dont_write_bytecode = True  # of the script in the sources
 
 N_FRAMES, N_SECTIONS, SPACING, RADIUS = 25, 30, 0.004, 0.007
-PICTURES = ("shapes", "angle", "curvature", "energy")
+PICTURES = ("shapes", "angle", "curvature", "energy", "extrema", "power", "defects")
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)  # of the first and the second fiber
 
 
@@ -79,7 +79,29 @@ def write_run(folder, n_frames=N_FRAMES, n_steps=400, status="done", out_of_plan
         parameters["fiber_length"] = np.array([N_SECTIONS * SPACING] * 2)
         parameters.attrs["title"] = "Two fibers of $x^$ and 100 % of a_b"  # would be a broken formula
         parameters.attrs["status"] = status
+    write_analysis(folder, times, lines)
     return folder
+
+
+def write_analysis(folder, times, lines):
+    """The tables of `skein analyze`, made up but for their shapes: one extremum travels, one stands."""
+    (folder / "analysis").mkdir()
+    n = len(times)
+    with h5py.File(folder / "analysis/diagnostics.h5", "w") as file:
+        file["time"] = times
+        for fiber in range(2):
+            group = file.create_group(f"fiber_{fiber}")
+            part = lines[:, fiber * N_SECTIONS : (fiber + 1) * N_SECTIONS]
+            group["signed_curvature"] = 300.0 * part[:, :, 1] * (-1.0) ** fiber
+            group["arclength"] = np.tile(np.arange(N_SECTIONS) * SPACING, (n, 1))
+            group["regime"] = (np.arange(n) > n // 2) * 3.0
+            for i, name in enumerate(("energy", "background_power", "dissipation", "elastic_power",
+                                      "viscosity_contribution", "out_of_plane", "symmetry_defect")):
+                group[name] = 1e-6 * (i + 1) * (1 + fiber) * np.exp(0.1 * times)
+            track = np.zeros(n)
+            group["track_points"] = np.concatenate([np.stack([track + 0, times, 0.02 + 0.01 * times, track + 5], axis=1),
+                                                    np.stack([track + 1, times, track + 0.1, track - 5], axis=1)])
+            group["tracks"] = np.array([[0, 6, 0.02, 0.01, 1, 1], [0, 6, 0.1, 0, 1, 0]], dtype=float)
 
 
 class Result:
@@ -133,7 +155,7 @@ def check_complete_run(script, folder):
     paths = [folder / "plots" / f"{name}.png" for name in PICTURES]
     check(result.stdout.split() == [str(path) for path in paths], f"not the paths of the pictures: {result.stdout}")
     pictures = {path.stem: read_picture(path) for path in paths}
-    for name in ("shapes", "energy"):
+    for name in ("shapes", "energy", "defects"):
         for colour in (BLUE, ORANGE):
             check(count(pictures[name], colour) > 200, f"{name}: a fiber is not drawn")
 
@@ -164,6 +186,8 @@ def check_options(script, folder):
     for text in ("t = 1<", "t = 3<", "t = 6<", "toward the eye"):
         check(text in shapes, f"shapes.svg does not say {text!r}")
     angle = (folder / "new/pictures/angle.svg").read_text()
+    extrema = (folder / "new/pictures/extrema.svg").read_text()
+    check(extrema.count(">0.01<") == 2, "extrema.svg: not the speed of each fiber's travelling extremum")
     check(">180<" in angle and ">\u221245<" not in angle, "angle.svg: the angle does not grow to 180 degrees")
     check(not (run / "plots").exists(), "pictures were also written into the run folder")
     check_fails(script, 64, "--times", run, "--times=1,x")
@@ -173,14 +197,25 @@ def check_options(script, folder):
 def check_poor_runs(script, folder):
     short = plot(script, write_run(folder / "short", n_frames=1, n_steps=0, status="running"))
     check(short.returncode == 0 and len(short.stdout.split()) == 1, f"one frame: {short.stdout}{short.stderr}")
-    check(short.stderr.count(" is not drawn: ") == 3, f"not said what is missing: {short.stderr}")
+    check(short.stderr.count(" is not drawn: ") == 6, f"not said what is missing: {short.stderr}")
     without_steps = plot(script, write_run(folder / "without_steps", n_steps=0))
     paths = [pathlib.Path(path).stem for path in without_steps.stdout.split()]
-    check(paths == ["shapes", "angle", "curvature"], f"without records of steps only {paths} are drawn")
+    check(paths == ["shapes", "angle", "curvature", "extrema", "power", "defects"], f"without records of steps only {paths} are drawn")
     failed = plot(script, write_run(folder / "failed", status="failed", last_is_nan=True), "--format=svg")
     check(failed.returncode == 0, failed.stderr)
     shapes = (folder / "failed/plots/shapes.svg").read_text()
     check("failed at t = 6" in shapes and "not finite" in shapes, "shapes.svg does not say that the run failed")
+
+
+def check_analysis_is_of_the_run(script, folder):
+    run = write_run(folder / "run")
+    with h5py.File(run / "analysis/diagnostics.h5", "a") as file:
+        file["time"][-1] += 1.0
+    stale = plot(script, run)
+    check(stale.returncode == 0 and stale.stderr.count("is not of these frames") == 3, f"a stale analysis: {stale.stderr}")
+    (run / "analysis/diagnostics.h5").unlink()
+    missing = plot(script, run)
+    check(missing.returncode == 0 and missing.stderr.count("run 'skein analyze' first") == 3, missing.stderr)
 
 
 def check_errors(script, folder):
@@ -208,7 +243,7 @@ def check_errors(script, folder):
 
 def main():
     script = sys.argv[1]
-    for part in (check_complete_run, check_options, check_poor_runs, check_errors):
+    for part in (check_complete_run, check_options, check_poor_runs, check_analysis_is_of_the_run, check_errors):
         with tempfile.TemporaryDirectory() as folder:
             part(script, pathlib.Path(folder))
 

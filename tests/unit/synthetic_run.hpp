@@ -69,6 +69,8 @@ inline StepRecord make_synthetic_record(const int step) {
   record.energy = {1e-6 * step, 2e-6 * step};
   record.length = {0.21, 0.24};
   record.curvature_max = {1.3, 1.7};
+  record.symmetry_defect = {1e-3, 2e-3};
+  record.out_of_plane = {0.01, 0.02};
   record.end_to_end = {{0.2, 0.01 * step, 0.0}, {0.1, 0.2, 0.03}};
   return record;
 }

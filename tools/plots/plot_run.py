@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a run: shapes, end-to-end angle, curvature, energy. The paths of the pictures go to stdout, notes to stderr."""
+"""Draws a run: shapes, end-to-end angle, curvature, energy, and what `skein analyze` measured. The paths of the pictures go to stdout, notes to stderr."""
 
 import argparse
 import os
@@ -9,8 +9,12 @@ sys.dont_write_bytecode = True  # the sources, or the installed program, are no 
 
 try:
     import angle
+    import defects
     import energy
+    import extrema
     import kymograph
+    import movie
+    import power
     import shapes
     import style
     from run_reader import DAMAGED, Nothing, PlotError, Run, write_error
@@ -18,7 +22,8 @@ except ImportError as missing:
     sys.exit(f"skein plot: {missing}: install python3-matplotlib and python3-h5py")
 
 USAGE, INTERNAL, STOPPED = 64, 70, 75
-PICTURES = {"shapes": shapes, "angle": angle, "curvature": kymograph, "energy": energy}
+PICTURES = {"shapes": shapes, "angle": angle, "curvature": kymograph, "energy": energy, "extrema": extrema,
+            "power": power, "defects": defects}
 
 
 class Parser(argparse.ArgumentParser):
@@ -39,6 +44,7 @@ def parse_arguments():
     parser.add_argument("--times", type=parse_times, metavar="T1,T2,...", help="draw the frames nearest to these times")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="folder for the pictures (default: DIR/plots)")
     parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
+    parser.add_argument("--movie", action="store_true", help="also movie.mp4; needs ffmpeg")
     options = parser.parse_args()
     options.output = options.output or os.path.join(options.folder, "plots")
     options.notes = []
@@ -67,6 +73,8 @@ def draw_all(options):
             say(note)
         options.notes.clear()
         print(style.save(figure, options.output, name, options.format), flush=True)
+    if options.movie:
+        print(movie.save(run, options.output), flush=True)
 
 
 def main():

@@ -35,6 +35,7 @@ class RunFolder {
   std::filesystem::path lock() const { return path_ / "lock"; }
   std::filesystem::path stop_request() const { return path_ / "STOP"; }
   std::filesystem::path output_request() const { return path_ / "OUTPUT_NOW"; }
+  std::filesystem::path analysis() const { return path_ / "analysis"; }
   std::filesystem::path events() const { return path_ / "events.jsonl"; }
 
  private:

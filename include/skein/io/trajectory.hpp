@@ -32,12 +32,14 @@ struct StepRecord {
   std::int64_t evaluations = 0;  ///< of the right-hand side, since the start of the run
   double velocity_error = std::numeric_limits<double>::quiet_NaN();  ///< last one measured, relative; see ErrorRecord
   int fmm_order = 0;                                                 ///< of the last evaluation; 0: summed directly
-  std::int64_t fmm_misses = 0;        ///< checks that found more than the tolerance, since the start of the run
-  double smallest_gap = 0.0;          ///< between surfaces of distant sections, length
-  std::vector<double> energy;         ///< [n_fibers], elastic
-  std::vector<double> length;         ///< [n_fibers], of the centreline
-  std::vector<double> curvature_max;  ///< [n_fibers], 1 / length
-  std::vector<Vec3> end_to_end;       ///< [n_fibers], last section centroid - first, length
+  std::int64_t fmm_misses = 0;          ///< checks that found more than the tolerance, since the start of the run
+  double smallest_gap = 0.0;            ///< between surfaces of distant sections, length
+  std::vector<double> energy;           ///< [n_fibers], elastic
+  std::vector<double> length;           ///< [n_fibers], of the centreline
+  std::vector<double> curvature_max;    ///< [n_fibers], 1 / length
+  std::vector<double> symmetry_defect;  ///< [n_fibers], departure from odd symmetry over length
+  std::vector<double> out_of_plane;     ///< [n_fibers], largest distance from the plane z = centroid's, length
+  std::vector<Vec3> end_to_end;         ///< [n_fibers], last section centroid - first, length
 };
 
 /// A number, or a list such as one number per fiber, with its unit ("" where it has no dimension).

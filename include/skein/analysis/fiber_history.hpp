@@ -1,0 +1,71 @@
+#pragma once
+
+#include <skein/analysis/curvature_extrema.hpp>
+#include <skein/analysis/hook.hpp>
+#include <skein/analysis/orientation.hpp>
+#include <skein/analysis/regime.hpp>
+#include <skein/scene/fiber.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace skein {
+
+/// Hooks while they are new, which is what fibers of different lengths can be compared by.
+struct Snaking {
+  double begin = 0.0, end = 0.0;  ///< times, of the window that was measured
+  double hook_radius = 0.0;       ///< median over the window and both ends, length
+  double speed = 0.0;             ///< of the peaks of curvature along the fiber, away from its ends, length / time
+  double determination = 0.0;     ///< of the line fit, the worse of both ends
+};
+
+/// What one fiber did, in a few numbers.
+struct FiberSummary {
+  std::vector<Passage> passages;
+  std::vector<double> half_periods;
+  std::vector<RegimeChange> changes;
+  Regime regime = Regime::tumble;  ///< the most complex one reached
+  std::vector<ExtremumTrack> tracks;
+  Wave wave = Wave::unclear;                    ///< of the tracks, weighted by their duration
+  std::optional<Snaking> snaking;               ///< none where no end folded back
+  double stretch_min = 0.0, stretch_max = 0.0;  ///< length over that at the first moment, less 1
+  double curvature_max = 0.0;                   ///< 1 / length
+  double symmetry_defect_max = 0.0;             ///< over length
+  double out_of_plane_max = 0.0;                ///< length
+  LineFit out_of_plane_growth;                  ///< slope 1 / time, from 1e3 times rounding to a tenth of a radius
+};
+
+/// The centreline of one fiber through time, moment by moment.
+class FiberHistory {
+ public:
+  explicit FiberHistory(const Fiber& fiber);
+
+  /// Times must grow. @param centreline  [n_sections], length
+  void add(double time, std::span<const Vec3> centreline);
+
+  const std::vector<double>& time() const { return time_; }
+  const std::vector<Shape>& shapes() const { return shapes_; }
+  const std::vector<Regime>& regimes() const { return regimes_; }
+  /// [n_moments * n_sections], row by row: signed, 1 / length; and from the first section, length
+  const std::vector<double>& curvature() const { return curvature_; }
+  const std::vector<double>& arclength() const { return arclength_; }
+  /// Of the first section's end, then of the last's; [n_moments]
+  const std::vector<std::optional<Hook>>& hooks(FiberEnd end) const { return hooks_[end == FiberEnd::last]; }
+  std::vector<double> angles() const;  ///< unwrapped, clockwise, radians
+
+  FiberSummary summarize() const;
+
+ private:
+  std::vector<ExtremumTrack> make_tracks() const;
+  std::optional<Snaking> measure_snaking() const;
+
+  Fiber fiber_;
+  int reach_;
+  std::vector<double> time_, curvature_, arclength_;
+  std::vector<Shape> shapes_;
+  std::vector<Regime> regimes_;
+  std::vector<std::optional<Hook>> hooks_[2];
+};
+
+}  // namespace skein

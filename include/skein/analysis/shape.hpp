@@ -1,0 +1,34 @@
+#pragma once
+
+#include <skein/analysis/signed_curvature.hpp>
+
+#include <span>
+#include <vector>
+
+namespace skein {
+
+/// Turning below which a part of the line does not count as a bend, radians: five degrees.
+inline constexpr double least_bend_turning = 0.0873;
+
+/// What can be said of one fiber's centreline at one moment without knowing the others.
+struct Shape {
+  double length = 0.0;           ///< of the line through the centroids
+  double distance = 0.0;         ///< between the ends
+  double angle = 0.0;            ///< of the end-to-end vector, clockwise from +x in the x-y plane, (-pi, pi]
+  double curvature_max = 0.0;    ///< unsigned, 1 / length
+  double total_turning = 0.0;    ///< radians
+  double symmetry_defect = 0.0;  ///< departure from odd symmetry, over the line's length
+  double out_of_plane = 0.0;     ///< largest distance from the plane z = centroid's, length
+  std::vector<Bend> bends;
+};
+
+Shape measure_shape(std::span<const Vec3> centreline, int reach);
+
+/// Root mean square over sections of |x(s) + x(-s) - 2 centroid| / 2, over the line's length: 0 for a shape that is odd
+/// about its centroid, such as an unperturbed fiber's in shear.
+double compute_symmetry_defect(std::span<const Vec3> centreline);
+
+/// Largest |z - z of the centroid|, length.
+double compute_out_of_plane(std::span<const Vec3> centreline);
+
+}  // namespace skein

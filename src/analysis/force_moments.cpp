@@ -1,0 +1,52 @@
+#include <skein/analysis/force_moments.hpp>
+
+#include <skein/core/error.hpp>
+
+#include <limits>
+
+namespace skein {
+namespace {
+
+double contract(const Matrix3& a, const Matrix3& b) {
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum += a[i][j] * b[i][j];
+  return sum;
+}
+
+}  // namespace
+
+PowerBalance compute_power_balance(const std::span<const Vec3> force, const std::span<const Vec3> induced,
+                                   const std::span<const Vec3> background) {
+  SKEIN_REQUIRE(force.size() == induced.size() && force.size() == background.size(), "one velocity for each force");
+  PowerBalance power;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    power.dissipation += dot(force[i], induced[i]);
+    power.background -= dot(force[i], background[i]);
+  }
+  return power;
+}
+
+Matrix3 compute_stresslet(const std::span<const Vec3> position, const std::span<const Vec3> force) {
+  SKEIN_REQUIRE(position.size() == force.size(), "one force for each position");
+  Vec3 middle;
+  for (const Vec3 x : position) middle = middle + x / static_cast<double>(position.size());
+  Matrix3 stresslet{};
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const Vec3 arm = position[i] - middle;
+    const double x[3] = {arm.x, arm.y, arm.z}, f[3] = {force[i].x, force[i].y, force[i].z};
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) stresslet[a][b] -= 0.5 * (x[a] * f[b] + x[b] * f[a]);
+  }
+  const double third = (stresslet[0][0] + stresslet[1][1] + stresslet[2][2]) / 3.0;
+  for (int a = 0; a < 3; ++a) stresslet[a][a] -= third;
+  return stresslet;
+}
+
+double compute_viscosity_contribution(const Matrix3& stresslet, const Matrix3& strain_rate, const double viscosity) {
+  const double strain = contract(strain_rate, strain_rate);
+  if (!(strain > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return contract(stresslet, strain_rate) / (2.0 * viscosity * strain);
+}
+
+}  // namespace skein

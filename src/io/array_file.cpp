@@ -1,0 +1,42 @@
+#include <skein/io/array_file.hpp>
+
+#include <skein/core/error.hpp>
+#include <skein/io/atomic_file.hpp>
+
+#include "hdf5_writer.hpp"
+
+#include <fmt/format.h>
+
+namespace skein {
+
+void write_array_file(const std::filesystem::path& path, const std::vector<NamedArray>& arrays,
+                      const std::vector<std::pair<std::string, std::string>>& attributes) {
+  constexpr std::size_t growth = 1 << 20;
+  Hdf5Writer file(path, growth);
+  for (const NamedArray& array : arrays) {
+    const Shape shape(array.shape.begin(), array.shape.end());
+    std::size_t n = 1;
+    for (const std::size_t extent : array.shape) n *= extent;
+    SKEIN_REQUIRE(n == array.values.size(), fmt::format("'{}' has as many numbers as its shape says", array.name));
+    file.write("/" + array.name, Number::float64, shape, array.values.data(), array.unit);
+  }
+  for (const auto& [name, text] : attributes) file.set_attribute("/", name, text);
+  file.commit();
+}
+
+void write_csv(const std::filesystem::path& path, const std::vector<NamedArray>& columns) {
+  SKEIN_REQUIRE(!columns.empty(), "a table has columns");
+  std::string text;
+  for (const NamedArray& column : columns) {
+    SKEIN_REQUIRE(column.values.size() == columns.front().values.size(), "columns have one length");
+    if (!text.empty()) text += ',';
+    text += column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
+  }
+  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      text += fmt::format("{}{}", c == 0 ? "\n" : ",", columns[c].values[row]);
+  }
+  write_file_atomically(path, text + "\n");
+}
+
+}  // namespace skein

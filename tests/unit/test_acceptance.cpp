@@ -1,0 +1,139 @@
+// The comparison with a paper: verdicts, and its table for runs that are made up.
+#include "app/acceptance.hpp"
+
+#include <skein/scene/calibration.hpp>
+
+#include <gtest/gtest.h>
+
+#include "app/lagrone2019.hpp"
+#include "app/paper_scenes.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace skein {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Acceptance, NumbersRangesAndWordsHaveVerdicts) {
+  EXPECT_EQ(compare_number(10.9, 10.99, 0.1).verdict, Verdict::agrees);
+  EXPECT_EQ(compare_number(10.9, 11.01, 0.1).verdict, Verdict::differs);
+  EXPECT_EQ(compare_number(10.9, 11.01, 0.1).difference, "+0.11");
+  EXPECT_EQ(compare_number(10.9, nan, 0.1).verdict, Verdict::not_reached);
+  EXPECT_EQ(compare_range(1.0, 5.0, 5.0).verdict, Verdict::agrees);
+  EXPECT_EQ(compare_range(1.0, 5.0, 0.9).verdict, Verdict::differs);
+  EXPECT_EQ(compare_range(1.0, std::numeric_limits<double>::infinity(), 1e9).paper, ">= 1");
+  EXPECT_EQ(compare_range(1.0, 5.0, nan).verdict, Verdict::not_reached);
+  EXPECT_EQ(compare_word("S", "S").verdict, Verdict::agrees);
+  EXPECT_EQ(compare_word("S", "snake").verdict, Verdict::differs);
+  EXPECT_EQ(compare_word("S", "").verdict, Verdict::not_reached);
+}
+
+TEST(Acceptance, TheTableIsAlignedAndCounted) {
+  AcceptanceRow agrees = compare_number(1.0, 1.0, 0.1), differs = compare_word("a \"quoted\" word", "other");
+  agrees.quantity = "a long name of a quantity";
+  const std::string text = describe_rows({agrees, differs});
+  EXPECT_NE(text.find("2 rows: 1 agree, 1 differ, 0 not reached"), std::string::npos);
+  const auto column = text.find("verdict");
+  const auto second_line = text.find('\n') + 1;
+  EXPECT_EQ(text.substr(second_line + column, 6), "agrees");
+  EXPECT_EQ(worst({agrees, differs}), Verdict::differs);
+  EXPECT_EQ(worst({agrees, AcceptanceRow{}}), Verdict::not_reached);
+  EXPECT_EQ(worst({agrees}), Verdict::agrees);
+  EXPECT_NE(describe_rows_as_json({differs}).find("\"a \\\"quoted\\\" word\""), std::string::npos);
+}
+
+TEST(PaperScenes, CoarseFibersKeepLengthAndRigidity) {
+  const SceneConfig fine = make_paper_scene(113, 30.0);
+  const Fiber fiber = make_fibers(fine.fibers)[0];
+  for (const int nodes : {6, 9, 12}) {
+    const SceneConfig scene = coarsen(fine, nodes);
+    const Fiber coarse = make_fibers(scene.fibers)[0];
+    EXPECT_EQ(coarse.config.nodes_per_section, nodes);
+    EXPECT_NEAR(coarse.length(), fiber.length(), 0.51 * coarse.spacing());
+    EXPECT_NEAR(measure_beam_stiffness(coarse).infinite_bending / measure_beam_stiffness(fiber).infinite_bending, 1.0,
+                1e-9);
+    EXPECT_EQ(coarse.config.blob, fiber.config.blob);
+    EXPECT_LT(coarse.n_nodes(), fiber.n_nodes());
+  }
+  EXPECT_EQ(coarsen(fine, 18).fibers[0].spring_stiffness, fine.fibers[0].spring_stiffness);
+}
+
+TEST(PaperTable, NeedsNoRunsForGeometry) {
+  const auto rows = compare_with_paper("table1", {});
+  EXPECT_EQ(rows.size(), 14u);
+  for (const AcceptanceRow& row : rows) EXPECT_EQ(row.verdict, Verdict::agrees) << row.quantity << " " << row.skein;
+}
+
+TEST(PaperTable, RunsThatAreNotThereAreNotReached) {
+  for (const auto& [figure, what] : list_paper_figures()) {
+    if (figure == "table1") continue;
+    const auto rows = compare_with_paper(figure, {});
+    EXPECT_FALSE(rows.empty()) << figure;
+    for (const AcceptanceRow& row : rows) {
+      EXPECT_EQ(row.verdict, Verdict::not_reached) << row.quantity;
+      EXPECT_EQ(row.figure, figure);
+      EXPECT_FALSE(row.source.empty()) << row.quantity;
+    }
+  }
+  EXPECT_ANY_THROW(compare_with_paper("figure99", {}));
+}
+
+/// A rigid rod on its orbit (Jeffery 1922), half turn of the given duration.
+RunAnalysis make_rigid_run(const double half_period, const double end) {
+  RunAnalysis analysis;
+  analysis.scene = make_paper_scene(80, end);
+  analysis.fibers = make_fibers(analysis.scene.fibers);
+  const Fiber& fiber = analysis.fibers[0];
+  analysis.histories.emplace_back(fiber);
+  const double sum = 2.5 * half_period / std::numbers::pi;  // r + 1/r
+  const double ratio = 0.5 * (sum + std::sqrt(sum * sum - 4.0));
+  for (int i = 0; 0.05 * i <= end; ++i) {
+    const double phase = 2.5 * 0.05 * i / sum;
+    const Vec3 along{std::cos(phase) * ratio, -std::sin(phase), 0.0};
+    std::vector<Vec3> line;
+    for (int s = 0; s < fiber.config.sections; ++s)
+      line.push_back((s - 0.5 * (fiber.config.sections - 1)) * fiber.spacing() / norm(along) * along);
+    analysis.time.push_back(0.05 * i);
+    analysis.histories[0].add(0.05 * i, line);
+  }
+  return analysis;
+}
+
+TEST(PaperTable, ARigidRodHasTheOrbitButNotTheBends) {
+  PaperRuns runs;
+  runs.emplace("L0139", make_rigid_run(10.9, 12.0));
+  int n_angles = 0;
+  for (const AcceptanceRow& row : compare_with_paper("figure2", runs)) {
+    const bool is_angle = row.quantity.find("0.139: angle") != std::string::npos ||
+                          row.quantity.find("0.139: half period") != std::string::npos;
+    n_angles += is_angle;
+    if (is_angle) {
+      EXPECT_EQ(row.verdict, Verdict::agrees) << row.quantity << ": " << row.skein;
+    } else if (row.quantity.find("slight bends") != std::string::npos ||
+               row.quantity.find("compression") != std::string::npos) {
+      EXPECT_EQ(row.verdict, Verdict::differs) << row.quantity << ": " << row.skein;
+    } else if (row.quantity.find("0.196") != std::string::npos) {
+      EXPECT_EQ(row.verdict, Verdict::not_reached) << row.quantity;
+    }
+  }
+  EXPECT_EQ(n_angles, 6);
+  // A run that has not come far enough yet.
+  runs.clear();
+  runs.emplace("L0139", make_rigid_run(10.9, 5.0));
+  const auto rows = compare_with_paper("figure2", runs);
+  EXPECT_EQ(rows[0].verdict, Verdict::agrees);
+  EXPECT_EQ(rows[2].verdict, Verdict::not_reached);
+}
+
+TEST(PaperTable, ASlowRodDiffers) {
+  PaperRuns runs;
+  runs.emplace("L0139", make_rigid_run(12.0, 13.0));
+  const auto rows = compare_with_paper("figure2", runs);
+  EXPECT_EQ(rows[0].verdict, Verdict::differs);
+}
+
+}  // namespace
+}  // namespace skein
