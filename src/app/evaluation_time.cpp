@@ -37,10 +37,10 @@ double time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
 
 std::string describe_dry_run(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
-  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
+  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
                          make_mobility(scene));
   const auto integrator = make_integrator(scene, fibers, dynamics);
-  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers));
+  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers, scene.seed));
   return describe_run(scene, fibers, dynamics, *integrator, time_evaluation(dynamics, position));
 }
 

@@ -1,6 +1,7 @@
 #include "app/run_description.hpp"
 
 #include <skein/core/runtime.hpp>
+#include <skein/model/background_flow.hpp>
 #include <skein/scene/calibration.hpp>
 #include <skein/scene/spring_network.hpp>
 
@@ -20,11 +21,18 @@ namespace {
 double expect_evaluations(const SceneConfig& scene, const double spectral_radius) {
   const double end = scene.time.end;
   if (scene.time.method == "euler") return end / scene.time.step;
-  const double rate = std::max(std::abs(scene.flow.rate), 1e-3);
+  const double rate = std::max(1.0 / make_background_flow(scene.flows)->time_scale(), 1e-3);
   const double dt = scene.time.step > 0.0
                         ? scene.time.step
                         : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
   return end / dt * (1.0 + std::sqrt(1.0 + 1.54 * dt * 1.2 * spectral_radius));
+}
+
+/// Of a fiber's springs, force.
+double find_largest_stiffness(const FiberConfig& fiber) {
+  double factor = 0.0;
+  for (const ProfilePoint& point : fiber.stiffness_profile) factor = std::max(factor, point.factor);
+  return fiber.spring_stiffness * factor * std::max(fiber.stiffness_within_sections, fiber.stiffness_between_sections);
 }
 
 /// Of the spring-mobility operator, 1 / time: 1.1e4 for the paper's fiber, and in proportion to k / (viscosity R^2)
@@ -32,7 +40,7 @@ double expect_evaluations(const SceneConfig& scene, const double spectral_radius
 double guess_spectral_radius(const SceneConfig& scene) {
   double radius = 0.0;
   for (const FiberConfig& fiber : scene.fibers)
-    radius = std::max(radius, 1.1057e4 * (fiber.spring_stiffness / 0.0112) / scene.fluid.viscosity *
+    radius = std::max(radius, 1.1057e4 * (find_largest_stiffness(fiber) / 0.0112) / scene.fluid.viscosity *
                                   std::pow(0.005 / fiber.radius, 2) * fiber.nodes_per_section / 18.0);
   return radius;
 }
@@ -51,21 +59,22 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
                        {"commit", commit()},
                        {"build", describe_build()},
                        {"backend", describe_backend()},
-                       {"flow", scene.flow.kind},
+                       {"flow", make_background_flow(scene.flows)->describe()},
                        {"integrator", scene.time.method}};
+  const double rate = make_background_flow(scene.flows)->typical_rate();
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
     length.push_back(fiber.length());
     rigidity.push_back(beam.bending);
-    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, scene.flow.rate, beam.bending);
+    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
     number.push_back(numbers.with_log_4e_over_rho2);
     number_slender.push_back(numbers.with_minus_log_rho2_e);
   }
   layout.parameters = {{"fiber_length", {length, "length"}},
                        {"bending_rigidity", {rigidity, "force*length^2"}},
                        {"viscosity", {scene.fluid.viscosity, "force*time/length^2"}},
-                       {"shear_rate", {scene.flow.rate, "1/time"}},
+                       {"shear_rate", {rate, "1/time"}},
                        {"elasto_viscous_number_log_4e_over_rho2", {number, "1"}},
                        {"elasto_viscous_number_minus_log_rho2_e", {number_slender, "1"}}};
   return layout;
@@ -83,8 +92,8 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", dynamics.flow().describe(),
                       dynamics.mobility().describe(), integrator.describe(), scene.time.end);
   text += fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
-                      1e3 * evaluation_seconds, evaluations, format_duration(evaluations * evaluation_seconds), n_frames,
-                      1e-6 * bytes);
+                      1e3 * evaluation_seconds, evaluations, format_duration(evaluations * evaluation_seconds),
+                      n_frames, 1e-6 * bytes);
   if (scene.time.method == "euler" && scene.time.step * radius > 2.0)
     text += fmt::format(
         "\nwarning: the step times the spectral radius (about {:.3g}) is {:.3g}; forward Euler is unstable above 2",
