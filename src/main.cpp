@@ -6,5 +6,5 @@ int main(int argc, char** argv) {
   return skein::run_command_line(argc, argv,
                                  {skein::add_run_verb, skein::add_resume_verb, skein::add_verify_verb,
                                   skein::add_validate_verb, skein::add_defaults_verb, skein::add_info_verb,
-                                  skein::add_plot_verb});
+                                  skein::add_field_verb, skein::add_plot_verb});
 }

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-#include "app/child_process.hpp"
+#include "app/plot_scripts.hpp"
 #include "app/verbs.hpp"
 
 namespace skein {
@@ -22,31 +22,16 @@ struct PlotOptions {
   std::string output;
 };
 
-// Beside an installed program, else in the sources that this program was built from.
-fs::path find_script() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path places[] = {program.parent_path() / SKEIN_PLOTS_FROM_PROGRAM, SKEIN_PLOTS_IN_SOURCES};
-  for (const fs::path& place : places) {
-    const fs::path script = (place / "plot_run.py").lexically_normal();
-    if (fs::is_regular_file(script, error)) return script;
-  }
-  throw Error(ExitCode::missing_input, fmt::format("the plot script plot_run.py is neither in {} nor in {}",
-                                                   places[0].lexically_normal().string(), places[1].string()));
-}
-
 int plot_run(const PlotOptions& options) {
   std::error_code error;
   if (!fs::is_directory(options.folder, error)) {
     throw Error(ExitCode::missing_input, fmt::format("the run folder {} is not there", options.folder));
   }
   // Made absolute, so that a folder whose name begins with a dash is no option.
-  std::vector<std::string> arguments{find_script().string(), fs::absolute(options.folder).string()};
+  std::vector<std::string> arguments{fs::absolute(options.folder).string()};
   if (!options.times.empty()) arguments.push_back(fmt::format("--times={}", fmt::join(options.times, ",")));
   if (!options.output.empty()) arguments.push_back("--output=" + options.output);
-  const int code = run_program(SKEIN_PYTHON, arguments);
-  // The interpreter's own codes, such as 1 after an uncaught exception, would say something else here.
-  return code == 0 || code >= static_cast<int>(ExitCode::usage) ? code : static_cast<int>(ExitCode::internal);
+  return run_plot_script("plot_run.py", arguments);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ void add_verify_verb(CLI::App& app, Action& action);
 void add_validate_verb(CLI::App& app, Action& action);
 void add_defaults_verb(CLI::App& app, Action& action);
 void add_info_verb(CLI::App& app, Action& action);
+void add_field_verb(CLI::App& app, Action& action);
 void add_plot_verb(CLI::App& app, Action& action);
 
 }  // namespace skein
