@@ -65,6 +65,7 @@ def draw(run, x, y, time, fields):
         panel.set_ylim(y[0], y[-1])
         panel.set_title(title, pad=4)
         panel.set_xlabel("$x$ ($L_0$)")
+        panel.xaxis.set_major_locator(plt.MaxNLocator(4))
         panel.tick_params(labelleft=column == 0)
         if column == 0:
             panel.set_ylabel("$y$ ($L_0$)")
