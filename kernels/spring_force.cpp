@@ -37,10 +37,11 @@ KOKKOS_INLINE_FUNCTION Vec3 force_on_node(const SpringArrays<Space>& springs, co
     const int sense = other_section < section ? -1 : 1;
     const int row = sense * (other_section - section) * n;
     const int first_other = fiber.first_node + other_section * n;
+    const double factor = spring_factor<Space>(springs, fiber, section, other_section);
     for (int b = 0; b < n; ++b) {
       const int steps = sense * (b - a);
       const int entry = row + (steps < 0 ? steps + n : steps);
-      const double stiffness = stencil.stiffness[entry];
+      const double stiffness = factor * stencil.stiffness[entry];
       const Vec3 d = x - load(position, first_other + b);
       const double r_squared = dot(d, d);
       if (stiffness == 0.0 || r_squared == 0.0) continue;
@@ -63,13 +64,14 @@ KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& spr
 
   double energy = 0.0;
   for (int offset = 0; offset <= last_offset; ++offset) {
+    const double factor = spring_factor<Space>(springs, fiber, section, section + offset);
     for (int a = 0; a < n; ++a) {
       const Vec3 x = load(position, first + a);
       for (int b = offset == 0 ? a + 1 : 0; b < n; ++b) {
         const int entry = offset * n + (b >= a ? b - a : b - a + n);
         const double inverse_rest_length = stencil.inverse_rest_length[entry];
         const double strain = norm(x - load(position, first + offset * n + b)) * inverse_rest_length - 1.0;
-        energy += 0.5 * stencil.stiffness[entry] / inverse_rest_length * strain * strain;
+        energy += 0.5 * factor * stencil.stiffness[entry] / inverse_rest_length * strain * strain;
       }
     }
   }

@@ -27,9 +27,18 @@ struct SpringArrays {
   Kokkos::View<int*, Space> fiber_of_tile;     // [n_tiles]
   ScalarView<Space> stiffness;                 // [n_entries], force
   ScalarView<Space> inverse_rest_length;       // [n_entries], 1 / length
+  ScalarView<Space> section_factor;            // [n_sections], of the stiffness; see spring_factor
   VectorView<Space> reaction;                  // [reach * n_nodes, 3], force; scratch of the tiles, zero at first
   bool has_wide_sections = false;              // more than max_tile_nodes nodes on a section
 };
+
+/// Of springs between two sections of a fiber, or inside one: springs are as stiff as the mean of their ends.
+template <class Space>
+KOKKOS_INLINE_FUNCTION double spring_factor(const SpringArrays<Space>& springs, const FiberSprings& fiber,
+                                            const int section, const int other_section) {
+  const int first = fiber.first_section;
+  return 0.5 * (springs.section_factor(first + section) + springs.section_factor(first + other_section));
+}
 
 /// The host takes this many sections of a fiber at once, one in each lane.
 inline constexpr int sections_per_tile = simd::width<double>;

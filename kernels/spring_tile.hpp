@@ -36,9 +36,8 @@ struct SpringRow {
 };
 
 /// Adds the forces of a row of springs to both of their ends.
-/// @param is_there  by lane: 1, or 0 where the fiber has ended. A stiffness that varies along the fiber would enter
-/// here.
-inline void add_row(const SpringRow& row, const simd::Pack<double> is_there, const SectionTile& own,
+/// @param factor  of the stiffness, by lane; 0 where the fiber has ended
+inline void add_row(const SpringRow& row, const simd::Pack<double> factor, const SectionTile& own,
                     const SectionTile& other, SectionTile& force, SectionTile& reaction) {
   using Pack = simd::Pack<double>;
   constexpr double smallest = 1e-300;  // keeps r = 0 finite; nothing else notices it
@@ -53,7 +52,7 @@ inline void add_row(const SpringRow& row, const simd::Pack<double> is_there, con
     const Pack dy = y - other.y[b];
     const Pack dz = z - other.z[b];
     const Pack inverse_r = inverse_sqrt(dx * dx + dy * dy + dz * dz + smallest);
-    const Pack pull = is_there * (stiffness * (inverse_r - row.inverse_rest_length[node_offset]));
+    const Pack pull = factor * (stiffness * (inverse_r - row.inverse_rest_length[node_offset]));
     fx += pull * dx;
     fy += pull * dy;
     fz += pull * dz;
@@ -96,13 +95,15 @@ inline void store_tile(const SectionTile& tile, const FiberSprings& fiber, const
   }
 }
 
-/// Lanes whose section has a partner `section_offset` sections on.
-inline simd::Pack<double> lanes_with_partner(const FiberSprings& fiber, const int first_section,
-                                             const int section_offset) {
-  simd::Pack<double> is_there = {};
-  for (int lane = 0; lane < sections_per_tile; ++lane)
-    is_there[lane] = first_section + lane + section_offset < fiber.n_sections ? 1.0 : 0.0;
-  return is_there;
+/// Factors of the springs from the lanes' sections to those `section_offset` on; 0 where the fiber has ended.
+inline simd::Pack<double> load_factors(const SpringArrays<HostSpace>& springs, const FiberSprings& fiber,
+                                       const int first_section, const int section_offset) {
+  simd::Pack<double> factor = {};
+  for (int lane = 0; lane < sections_per_tile; ++lane) {
+    const int section = first_section + lane, other = section + section_offset;
+    factor[lane] = other < fiber.n_sections ? spring_factor<HostSpace>(springs, fiber, section, other) : 0.0;
+  }
+  return factor;
 }
 
 /// Springs inside the tile's sections and from them to later ones: their force on the tile's own nodes into `force`,
@@ -118,18 +119,18 @@ inline void compute_tile_force(const SpringArrays<HostSpace>& springs, const int
 
   const double* stiffness = &springs.stiffness(fiber.first_entry);
   const double* inverse_rest_length = &springs.inverse_rest_length(fiber.first_entry);
-  const simd::Pack<double> everywhere = simd::Pack<double>{} + 1.0;
+  const simd::Pack<double> inside = load_factors(springs, fiber, first_section, 0);
   for (int a = 0; a < n; ++a)
-    add_row({stiffness, inverse_rest_length, n, a, a + 1}, everywhere, own, own, own_force, own_force);
+    add_row({stiffness, inverse_rest_length, n, a, a + 1}, inside, own, own, own_force, own_force);
 
   for (int offset = 1; offset <= fiber.reach && first_section + offset < fiber.n_sections; ++offset) {
     stiffness += n;
     inverse_rest_length += n;
-    const simd::Pack<double> is_there = lanes_with_partner(fiber, first_section, offset);
+    const simd::Pack<double> factor = load_factors(springs, fiber, first_section, offset);
     load_tile(position, fiber, first_section + offset, other);
     reaction.set_to_zero(n);
     for (int a = 0; a < n; ++a)
-      add_row({stiffness, inverse_rest_length, n, a, 0}, is_there, own, other, own_force, reaction);
+      add_row({stiffness, inverse_rest_length, n, a, 0}, factor, own, other, own_force, reaction);
     const int n_nodes = force.extent_int(0);
     store_tile(reaction, fiber, first_section + offset, (offset - 1) * n_nodes, springs.reaction);
   }

@@ -7,5 +7,5 @@ int main(int argc, char** argv) {
       argc, argv,
       {skein::add_run_verb, skein::add_resume_verb, skein::add_verify_verb, skein::add_validate_verb,
        skein::add_defaults_verb, skein::add_info_verb, skein::add_analyze_verb, skein::add_phases_verb,
-       skein::add_plot_verb, skein::add_reproduce_verb});
+       skein::add_field_verb, skein::add_plot_verb, skein::add_reproduce_verb});
 }

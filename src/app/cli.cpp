@@ -13,6 +13,7 @@
 #include <skein/core/error.hpp>
 #include <skein/core/runtime.hpp>
 #include <string>
+#include <system_error>
 
 #include "app/terminal.hpp"
 
@@ -68,11 +69,19 @@ int reject(const std::string& message) {
   return static_cast<int>(ExitCode::usage);
 }
 
+[[noreturn]] void throw_unwritable_output(const int error) {
+  throw Error(ExitCode::io_error, fmt::format("standard output cannot be written: {}", std::strerror(error)));
+}
+
 int run_parsed(const Action& action) {
-  const int code = action();
-  if (std::fflush(stdout) != 0) {
-    throw Error(ExitCode::io_error, fmt::format("standard output cannot be written: {}", std::strerror(errno)));
+  int code = 0;
+  try {
+    code = action();
+  } catch (const std::system_error& error) {  // from fmt, where more is printed than a buffer holds
+    if (std::ferror(stdout) == 0) throw;
+    throw_unwritable_output(error.code().value());
   }
+  if (std::fflush(stdout) != 0) throw_unwritable_output(errno);
   return code;
 }
 

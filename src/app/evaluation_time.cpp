@@ -61,10 +61,10 @@ double time_direct_sum(const ConstVectors& position, const double viscosity) {
 
 std::string describe_dry_run(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
-  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
+  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
                          make_mobility(scene));
   const auto integrator = make_integrator(scene, fibers, dynamics);
-  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers));
+  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers, scene.seed));
   EvaluationCost cost = time_evaluation(dynamics, position);
   if (dynamics.mobility().error_record().n_approximate > 0)
     cost.direct_seconds = time_direct_sum(position, scene.fluid.viscosity);

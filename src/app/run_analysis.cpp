@@ -48,7 +48,7 @@ class ForceProbe {
       : fibers_(fibers),
         viscosity_(scene.fluid.viscosity),
         springs_(fibers),
-        flow_(make_background_flow(scene.flow)),
+        flow_(make_background_flow(scene.flows)),
         mobility_(make_mobility(scene)),
         blob_(to_device("skein::ForceProbe::blob", make_blobs(fibers))) {}
 

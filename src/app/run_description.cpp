@@ -1,6 +1,7 @@
 #include "app/run_description.hpp"
 
 #include <skein/core/runtime.hpp>
+#include <skein/model/background_flow.hpp>
 #include <skein/scene/calibration.hpp>
 #include <skein/scene/spring_network.hpp>
 
@@ -21,11 +22,18 @@ namespace {
 double expect_evaluations(const SceneConfig& scene, const double spectral_radius) {
   const double end = scene.time.end;
   if (scene.time.method == "euler") return end / scene.time.step;
-  const double rate = std::max(std::abs(scene.flow.rate), 1e-3);
+  const double rate = std::max(1.0 / make_background_flow(scene.flows)->time_scale(), 1e-3);
   const double dt = scene.time.step > 0.0
                         ? scene.time.step
                         : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
   return end / dt * (1.0 + std::sqrt(1.0 + 1.54 * dt * 1.2 * spectral_radius));
+}
+
+/// Of a fiber's springs, force.
+double find_largest_stiffness(const FiberConfig& fiber) {
+  double factor = 0.0;
+  for (const ProfilePoint& point : fiber.stiffness_profile) factor = std::max(factor, point.factor);
+  return fiber.spring_stiffness * factor * std::max(fiber.stiffness_within_sections, fiber.stiffness_between_sections);
 }
 
 /// Of the spring-mobility operator, 1 / time: 1.1e4 for the paper's fiber, and in proportion to k / (viscosity R^2)
@@ -33,7 +41,7 @@ double expect_evaluations(const SceneConfig& scene, const double spectral_radius
 double guess_spectral_radius(const SceneConfig& scene) {
   double radius = 0.0;
   for (const FiberConfig& fiber : scene.fibers)
-    radius = std::max(radius, 1.1057e4 * (fiber.spring_stiffness / 0.0112) / scene.fluid.viscosity *
+    radius = std::max(radius, 1.1057e4 * (find_largest_stiffness(fiber) / 0.0112) / scene.fluid.viscosity *
                                   std::pow(0.005 / fiber.radius, 2) * fiber.nodes_per_section / 18.0);
   return radius;
 }
@@ -46,23 +54,28 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
-                       {"version", version()},      {"commit", commit()},
-                       {"build", describe_build()}, {"backend", describe_backend()},
-                       {"flow", scene.flow.kind},   {"integrator", scene.time.method}};
+  layout.attributes = {{"title", scene.title},
+                       {"scene", scene_text},
+                       {"version", version()},
+                       {"commit", commit()},
+                       {"build", describe_build()},
+                       {"backend", describe_backend()},
+                       {"flow", make_background_flow(scene.flows)->describe()},
+                       {"integrator", scene.time.method}};
+  const double rate = make_background_flow(scene.flows)->typical_rate();
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
     length.push_back(fiber.length());
     rigidity.push_back(beam.bending);
-    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, scene.flow.rate, beam.bending);
+    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
     number.push_back(numbers.with_log_4e_over_rho2);
     number_slender.push_back(numbers.with_minus_log_rho2_e);
   }
   layout.parameters = {{"fiber_length", {length, "length"}},
                        {"bending_rigidity", {rigidity, "force*length^2"}},
                        {"viscosity", {scene.fluid.viscosity, "force*time/length^2"}},
-                       {"shear_rate", {scene.flow.rate, "1/time"}},
+                       {"shear_rate", {rate, "1/time"}},
                        {"elasto_viscous_number_log_4e_over_rho2", {number, "1"}},
                        {"elasto_viscous_number_minus_log_rho2_e", {number_slender, "1"}}};
   return layout;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <skein/model/background_flow.hpp>
 #include <skein/scene/calibration.hpp>
 #include <skein/scene/fiber.hpp>
 #include <skein/scene/spring_network.hpp>
@@ -22,12 +23,20 @@ std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const i
       index, config.sections, config.nodes_per_section, fiber.length(), config.radius, fiber.spacing(),
       count_springs(make_spring_network(fiber)), beam.bending, beam.infinite_bending, beam.axial, beam.torsional,
       config.radius / fiber.length(), config.blob / fiber.spacing(), config.blob / config.radius);
-  if (scene.flow.kind == "shear" && scene.flow.rate != 0.0) {
-    const auto numbers =
-        compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, scene.flow.rate, beam.bending);
-    text += fmt::format("  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
-                        "-ln(rho^2 e)\n",
-                        numbers.with_log_4e_over_rho2, numbers.with_minus_log_rho2_e);
+  const auto [softest, stiffest] =
+      std::minmax_element(config.stiffness_profile.begin(), config.stiffness_profile.end(),
+                          [](const ProfilePoint& a, const ProfilePoint& b) { return a.factor < b.factor; });
+  if (softest->factor != stiffest->factor)
+    text += fmt::format(
+        "  the stiffness varies along the fiber, from {:g} to {:g} times spring_stiffness: means are given\n",
+        softest->factor, stiffest->factor);
+  const double rate = make_background_flow(scene.flows)->typical_rate();
+  if (rate > 0.0) {
+    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
+    text += fmt::format(
+        "  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
+        "-ln(rho^2 e)\n",
+        numbers.with_log_4e_over_rho2, numbers.with_minus_log_rho2_e);
   }
   return text;
 }

@@ -12,7 +12,7 @@
 #include <skein/io/run_lock.hpp>
 
 #include "app/evaluation_time.hpp"
-#include "app/mobility_choice.hpp"
+#include "app/placed_scene.hpp"
 #include "app/run_control.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
@@ -33,7 +33,7 @@ RunFolder make_folder(const RunOptions& options, const std::string& scene_text, 
 }  // namespace
 
 int run_scene(const RunOptions& options) {
-  const SceneReading reading = read_scene(options.scene, options.overrides, find_mobility_problems);
+  const SceneReading reading = read_placed_scene(options.scene, options.overrides);
   if (!options.quiet && !reading.warnings.empty()) print_warning(describe_problems(reading.warnings));
 
   const Runtime runtime(options.threads);

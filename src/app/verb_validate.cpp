@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/json_text.hpp"
-#include "app/mobility_choice.hpp"
+#include "app/placed_scene.hpp"
 #include "app/scene_summary.hpp"
 #include "app/terminal.hpp"
 #include "app/verbs.hpp"
@@ -39,7 +39,7 @@ void print_json(const bool valid, const std::vector<Problem>& problems, const st
 int validate_scene(const ValidateOptions& options) {
   SceneReading scene;
   try {
-    scene = read_scene(options.scene, options.overrides, find_mobility_problems);
+    scene = read_placed_scene(options.scene, options.overrides);
   } catch (const SceneError& error) {
     if (!options.json) throw;
     print_json(false, error.problems(), {});

@@ -20,6 +20,7 @@ void add_info_verb(CLI::App& app, Action& action);
 void add_analyze_verb(CLI::App& app, Action& action);
 void add_reproduce_verb(CLI::App& app, Action& action);
 void add_phases_verb(CLI::App& app, Action& action);
+void add_field_verb(CLI::App& app, Action& action);
 void add_plot_verb(CLI::App& app, Action& action);
 
 }  // namespace skein

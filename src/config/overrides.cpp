@@ -19,8 +19,8 @@ struct OverrideError {
 };
 
 struct Override {
-  std::vector<std::string> path;     ///< table and key, or key
-  std::optional<std::size_t> fiber;  ///< of fiber[1].key
+  std::vector<std::string> path;        ///< table and key, or key
+  std::optional<std::size_t> instance;  ///< of fiber[1].key
   SceneValue value;
 };
 
@@ -61,6 +61,8 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
+bool is_repeatable(const std::string& table) { return table == "fiber" || table == "flow"; }
+
 // "fiber[1]" -> "fiber" and 1
 std::optional<std::size_t> take_index(std::string& name) {
   const auto open = name.find('[');
@@ -68,8 +70,8 @@ std::optional<std::size_t> take_index(std::string& name) {
   std::size_t index = 0;
   const char *first = name.data() + open + 1, *last = name.data() + name.size();
   const auto [end, error] = std::from_chars(first, last, index);
-  if (error != std::errc() || end + 1 != last || *end != ']' || name.substr(0, open) != "fiber") {
-    throw OverrideError{"an index counts fibers from 0, as in fiber[1].roll=30.0"};
+  if (error != std::errc() || end + 1 != last || *end != ']' || !is_repeatable(name.substr(0, open))) {
+    throw OverrideError{"an index counts fibers or flows from 0, as in fiber[1].roll=30.0"};
   }
   name.resize(open);
   return index;
@@ -83,8 +85,9 @@ Override parse_override(const std::string& text) {
   if (equals == std::string::npos || has_gap || parsed.path.size() > 2) {
     throw OverrideError{"write TABLE.KEY=VALUE, as in fiber.sections=113"};
   }
-  parsed.fiber = take_index(parsed.path.front());
-  if (parsed.fiber && parsed.path.size() < 2) throw OverrideError{"name a key of the fiber, as in fiber[1].roll=30.0"};
+  parsed.instance = take_index(parsed.path.front());
+  if (parsed.instance && parsed.path.size() < 2)
+    throw OverrideError{"name a key of the fiber, as in fiber[1].roll=30.0"};
   parsed.value = parse_value(text.substr(equals + 1));
   return parsed;
 }
@@ -99,20 +102,21 @@ void set_child(SceneValue& table, const std::string& name, const SceneValue& val
   child->name = name;
 }
 
-std::vector<SceneValue*> find_fibers(SceneValue& root, const std::optional<std::size_t> index) {
-  SceneValue* fiber = root.find("fiber");
-  if (fiber == nullptr) throw OverrideError{"the scene has no fiber to change"};
-  std::vector<SceneValue*> fibers;
-  if (fiber->kind == SceneValue::Kind::table) fibers.push_back(fiber);
-  if (fiber->is_list_of_tables()) {
-    for (SceneValue& child : fiber->children) fibers.push_back(&child);
+std::vector<SceneValue*> find_instances(SceneValue& root, const std::string& name,
+                                        const std::optional<std::size_t> index) {
+  SceneValue* table = root.find(name);
+  if (table == nullptr) throw OverrideError{fmt::format("the scene has no {} to change", name)};
+  std::vector<SceneValue*> instances;
+  if (table->kind == SceneValue::Kind::table) instances.push_back(table);
+  if (table->is_list_of_tables()) {
+    for (SceneValue& child : table->children) instances.push_back(&child);
   }
-  if (!index) return fibers;
-  if (*index >= fibers.size()) {
-    throw OverrideError{fmt::format("there is no fiber[{}]: the scene's last is fiber[{}]", *index,
-                                    static_cast<std::ptrdiff_t>(fibers.size()) - 1)};
+  if (!index) return instances;
+  if (*index >= instances.size()) {
+    throw OverrideError{fmt::format("there is no {0}[{1}]: the scene's last is {0}[{2}]", name, *index,
+                                    static_cast<std::ptrdiff_t>(instances.size()) - 1)};
   }
-  return {fibers[*index]};
+  return {instances[*index]};
 }
 
 SceneValue& find_or_add_table(SceneValue& root, const std::string& name, const Place& place) {
@@ -130,8 +134,10 @@ void apply(SceneValue& root, const Override& override, const Place& place) {
   const auto& path = override.path;
   if (path.size() == 1) {
     set_child(root, path[0], override.value);
-  } else if (path[0] == "fiber") {
-    for (SceneValue* fiber : find_fibers(root, override.fiber)) set_child(*fiber, path[1], override.value);
+  } else if (is_repeatable(path[0])) {
+    if (path[0] == "flow" && root.find("flow") == nullptr) find_or_add_table(root, path[0], place);
+    for (SceneValue* instance : find_instances(root, path[0], override.instance))
+      set_child(*instance, path[1], override.value);
   } else {
     set_child(find_or_add_table(root, path[0], place), path[1], override.value);
   }

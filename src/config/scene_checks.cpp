@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -12,6 +13,7 @@ namespace skein {
 namespace {
 
 constexpr double n_nodes_allowed = 1e8;
+constexpr double n_copies_allowed = 1e4;
 constexpr double n_frames_allowed = 1e7;
 constexpr double n_steps_allowed = 1e12;
 
@@ -38,15 +40,55 @@ void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneR
   }
 }
 
+void check_profile(const std::vector<ProfilePoint>& profile, const std::string& path, const SceneReader& reader,
+                   std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    const bool is_ordered = i == 0 || profile[i].position > profile[i - 1].position;
+    if (is_ordered && profile[i].position <= 1.0 && profile[i].factor >= 1e-6) continue;
+    reader.add(problems, path,
+               fmt::format("{}: pair {} is [{}, {}]; positions grow from 0 to 1, factors are above 0", path, i,
+                           format_number(profile[i].position), format_number(profile[i].factor)));
+    return;
+  }
+}
+
+void check_flow(const FlowConfig& flow, const std::string& path, const SceneReader& reader,
+                std::vector<Problem>& problems) {
+  if (flow.stop > 0.0 && flow.stop < flow.start)
+    reader.add(
+        problems, path + ".stop",
+        fmt::format("{0}.stop {1} is before {0}.start {2}", path, format_number(flow.stop), format_number(flow.start)));
+}
+
+void check_placement(const PlacementConfig& placement, const SceneReader& reader, std::vector<Problem>& problems) {
+  const Vec3 n = placement.grid;
+  if (n.x != std::floor(n.x) || n.y != std::floor(n.y) || n.z != std::floor(n.z))
+    reader.add(problems, "placement.grid",
+               fmt::format("placement.grid must be three whole numbers, not {}", format_vector(n)));
+  else if (placement.kind == "grid" && n.x * n.y * n.z > n_copies_allowed)
+    reader.add(problems, "placement.grid",
+               fmt::format("placement.grid asks for {:g} fibers, more than {:g}", n.x * n.y * n.z, n_copies_allowed));
+}
+
+/// Copies that placement makes of the fiber at this place of the list.
+double count_copies(const SceneConfig& scene, const std::size_t fiber) {
+  const PlacementConfig& placement = scene.placement;
+  if (placement.kind == "as_written") return 1.0;
+  const double n_copies =
+      placement.kind == "random" ? placement.count : placement.grid.x * placement.grid.y * placement.grid.z;
+  const double n_fibers = static_cast<double>(scene.fibers.size());
+  return std::max(0.0, std::ceil((n_copies - static_cast<double>(fiber)) / n_fibers));
+}
+
 void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
   double n_nodes = 0.0;
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
-    if (!reader.is_sound(reader.path_of_fiber(i))) return;
+    if (!reader.is_sound(reader.path_of("fiber", i))) return;
     const FiberConfig& fiber = scene.fibers[i];
-    n_nodes += static_cast<double>(fiber.sections) * fiber.nodes_per_section;
+    n_nodes += count_copies(scene, i) * fiber.sections * fiber.nodes_per_section;
     if (n_nodes <= n_nodes_allowed) continue;
     reader.add(
-        problems, reader.path_of_fiber(i) + ".sections",
+        problems, reader.path_of("fiber", i) + ".sections",
         fmt::format("with this fiber the scene has {:.3g} nodes (sections * nodes_per_section), more than {:.0e}",
                     n_nodes, n_nodes_allowed));
     return;
@@ -96,9 +138,16 @@ void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std:
 void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                  std::vector<Problem>& warnings) {
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
-    const std::string path = reader.path_of_fiber(i);
-    if (reader.is_sound(path)) check_fiber(scene.fibers[i], path, reader, problems, warnings);
+    const std::string path = reader.path_of("fiber", i);
+    if (!reader.is_sound(path)) continue;
+    check_fiber(scene.fibers[i], path, reader, problems, warnings);
+    check_profile(scene.fibers[i].stiffness_profile, path + ".stiffness_profile", reader, problems);
   }
+  for (std::size_t i = 0; i < scene.flows.size(); ++i) {
+    const std::string path = reader.path_of("flow", i);
+    if (reader.is_sound(path)) check_flow(scene.flows[i], path, reader, problems);
+  }
+  if (reader.is_sound("placement")) check_placement(scene.placement, reader, problems);
   check_node_count(scene, reader, problems);
   if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
   if (!reader.is_sound("time")) return;

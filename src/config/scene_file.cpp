@@ -51,7 +51,8 @@ SceneReading read_scene_text(const std::string& text, const std::string& name,
 
   SceneReading reading;
   SceneReader reader(root, source);
-  reading.config.fibers.resize(reader.n_fibers());
+  reading.config.flows.resize(reader.n_instances("flow"));
+  reading.config.fibers.resize(reader.n_instances("fiber"));
   visit_keys(reader, reading.config);
   problems.insert(problems.end(), reader.problems().begin(), reader.problems().end());
   check_scene(reading.config, reader, problems, reading.warnings);

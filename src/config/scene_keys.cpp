@@ -22,17 +22,76 @@ void visit_fluid(KeyVisitor& visitor, FluidConfig& fluid) {
   visitor.end_table();
 }
 
-void visit_flow(KeyVisitor& visitor, FlowConfig& flow) {
-  visitor.begin_table({"flow", false, "The flow that would be there without fibers."});
-  visitor.choice({"kind", "", {}, "background flow"},
-                 {{"shear", "velocity (rate * y, 0, 0)"}, {"none", "fluid at rest far away"}}, flow.kind);
-  visitor.number({"rate", "1 / time", any_number(), "shear rate"}, flow.rate);
+void visit_flow(KeyVisitor& visitor, FlowConfig& flow, const std::size_t n_flows) {
+  visitor.begin_table(
+      {"flow", true,
+       "The flow that would be there without fibers; [[flow]] once for each of several, whose velocities are added. "
+       "r is the rate at the time, x, y and z are measured from the center.",
+       n_flows});
+  visitor.choice({"kind", "", {}, "velocity"},
+                 {{"shear", "(r y, 0, 0)"},
+                  {"planar_extension", "(-r x, r y, 0), which compresses along x for r above 0"},
+                  {"uniaxial_extension", "(r x, -r y/2, -r z/2), which stretches along x for r above 0"},
+                  {"rotation", "(-r y, r x, 0), as a rigid body"},
+                  {"poiseuille", "(r size/2 (1 - (y/size)^2), 0, 0), between planes y = -size and size"},
+                  {"vortices", "r/k (sin(k x) cos(k y), -cos(k x) sin(k y), 0) with k = pi/size, square cells"},
+                  {"none", "fluid at rest far away"}},
+                 flow.kind);
+  visitor.number(
+      {"rate", "1 / time", any_number(),
+       "shear rate; of extensions the stretching rate along x or y; of the rotation the angular velocity; of "
+       "poiseuille the shear rate at the planes; of vortices the stretching rate at the corners of cells"},
+      flow.rate);
+  visitor.vector({"center", "length", any_number(), "origin of the flow"}, flow.center);
+  visitor.number({"size", "length", above_zero(), "half width of poiseuille, side of a cell of vortices"}, flow.size);
+  visitor.number({"angular_frequency", "radians / time", any_number(),
+                  "of an oscillating flow: r = rate cos(angular_frequency t + phase)"},
+                 flow.angular_frequency);
+  visitor.number({"phase", "degrees", between(-360, 360), "of an oscillating flow; 0 starts at the full rate"},
+                 flow.phase);
+  visitor.number({"start", "time", zero_or_more(), "no flow before"}, flow.start);
+  visitor.number({"stop", "time", zero_or_more(), "no flow after; 0: it never stops"}, flow.stop);
+  visitor.number({"ramp", "time", zero_or_more(), "time over which the flow rises after start and falls after stop"},
+                 flow.ramp);
   visitor.end_table();
 }
 
-void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
+void visit_start_shape(KeyVisitor& visitor, FiberConfig& fiber) {
+  visitor.integer({"start_mode", "", between(1, 1000),
+                   "half waves of the bend at the start; 1: a C, 2: an S. Springs keep the straight fiber's lengths"},
+                  fiber.start_mode);
+  visitor.number({"start_amplitude", "", between(0.0, 0.2),
+                  "largest deflection of that bend, as a fraction of the fiber's length; 0: straight"},
+                 fiber.start_amplitude);
+  visitor.number({"start_plane", "degrees", between(-360, 360),
+                  "direction of that bend about the fiber; 0: towards y for a fiber along x, 90: towards z"},
+                 fiber.start_plane);
+  visitor.number({"start_noise", "", between(0.0, 0.02),
+                  "random bends of 1 to 10 half waves in all directions, each with up to this amplitude as a fraction "
+                  "of the fiber's length; they follow from seed and the fiber's number"},
+                 fiber.start_noise);
+}
+
+void visit_springs(KeyVisitor& visitor, FiberConfig& fiber) {
+  visitor.profile({"stiffness_profile",
+                   "",
+                   {0.0, largest, "2 to 64 pairs"},
+                   "[position, factor] pairs, position 0 at the first section and 1 at the last: springs are factor "
+                   "times as stiff there, straight lines in between"},
+                  fiber.stiffness_profile);
+  visitor.number({"stiffness_within_sections", "", above_zero(), "factor of the springs inside sections"},
+                 fiber.stiffness_within_sections);
+  visitor.number({"stiffness_between_sections", "", above_zero(), "factor of the springs from section to section"},
+                 fiber.stiffness_between_sections);
+  visitor.integer({"reach_along", "", between(1, 8), "springs join sections up to this far apart"}, fiber.reach_along);
+  visitor.integer({"reach_around", "", between(0, 500),
+                   "springs join nodes whose places on their sections differ by up to this; 0: all"},
+                  fiber.reach_around);
+}
+
+void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber, const std::size_t n_fibers) {
   visitor.begin_table(
-      {"fiber", true, "A tube of surface nodes, straight at rest; [[fiber]] once for each of several."});
+      {"fiber", true, "A tube of surface nodes, straight at rest; [[fiber]] once for each of several.", n_fibers});
   visitor.integer({"sections", "", between(2, 1e9), "number of circular cross-sections along the fiber"},
                   fiber.sections);
   visitor.integer({"nodes_per_section", "", between(3, 1000),
@@ -48,6 +107,30 @@ void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
   visitor.vector({"direction", "", any_number(), "direction of the fiber at the start; its length does not matter"},
                  fiber.direction);
   visitor.number({"roll", "degrees", between(-360, 360), "rotation of the fiber about its direction"}, fiber.roll);
+  visit_start_shape(visitor, fiber);
+  visit_springs(visitor, fiber);
+  visitor.end_table();
+}
+
+void visit_placement(KeyVisitor& visitor, PlacementConfig& placement) {
+  visitor.begin_table({"placement", false,
+                       "Many fibers from few: copies of the scene's fibers, taken in turn. The scene in the run folder "
+                       "lists each copy."});
+  visitor.choice({"kind", "", {}, "where fibers stand"},
+                 {{"as_written", "each [fiber] once, where it says"},
+                  {"grid", "copies on a grid"},
+                  {"random", "copies inside a box, anywhere they do not touch"}},
+                 placement.kind);
+  visitor.vector({"center", "length", any_number(), "middle of the grid or the box"}, placement.center);
+  visitor.vector({"grid", "", {1.0, 10000.0, "1 to 10000"}, "numbers of fibers along x, y and z"}, placement.grid);
+  visitor.vector({"spacing", "length", any_number(), "distances of the grid along x, y and z"}, placement.spacing);
+  visitor.integer({"count", "", between(1, 10000), "number of random fibers"}, placement.count);
+  visitor.vector({"box", "length", above_zero(), "sides of the box that holds random fibers, ends included"},
+                 placement.box);
+  visitor.number({"gap", "length", zero_or_more(), "smallest distance of the surfaces of random fibers"},
+                 placement.gap);
+  visitor.choice({"orientation", "", {}, "directions of the copies"},
+                 {{"as_written", "as the fibers say"}, {"random", "evenly over the sphere"}}, placement.orientation);
   visitor.end_table();
 }
 
@@ -133,8 +216,9 @@ void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
   visitor.text({"title", "", {}, "any text; it is kept with the results"}, scene.title);
   visitor.integer({"seed", "", {0.0, 1e19, "0 or more"}, "start of all random numbers"}, scene.seed);
   visit_fluid(visitor, scene.fluid);
-  visit_flow(visitor, scene.flow);
-  for (FiberConfig& fiber : scene.fibers) visit_fiber(visitor, fiber);
+  for (FlowConfig& flow : scene.flows) visit_flow(visitor, flow, scene.flows.size());
+  for (FiberConfig& fiber : scene.fibers) visit_fiber(visitor, fiber, scene.fibers.size());
+  visit_placement(visitor, scene.placement);
   visit_hydrodynamics(visitor, scene.hydrodynamics);
   visit_time(visitor, scene.time);
   visit_output(visitor, scene.output);
@@ -156,6 +240,14 @@ std::string list_choices(const std::vector<Choice>& choices) {
     list += format_text(choices[i].word);
   }
   return list;
+}
+
+std::string format_profile(const std::vector<ProfilePoint>& profile) {
+  std::string list;
+  for (const ProfilePoint& point : profile)
+    list +=
+        fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", format_number(point.position), format_number(point.factor));
+  return "[" + list + "]";
 }
 
 std::string format_vector(const Vec3& vector) {

@@ -32,6 +32,7 @@ struct Table {
   std::string name;
   bool repeatable;  ///< [[name]], once per instance
   std::string meaning;
+  std::size_t n_instances = 1;
 };
 
 /// Sees every key of a scene in order. What reads, writes and documents scenes are visitors, so that a key is declared
@@ -47,6 +48,7 @@ class KeyVisitor {
   virtual void integer(const Key& key, std::int64_t& value) = 0;
   virtual void number(const Key& key, double& value) = 0;
   virtual void vector(const Key& key, Vec3& value) = 0;
+  virtual void profile(const Key& key, std::vector<ProfilePoint>& value) = 0;
 
   /// Any other integer type; the key's range keeps the value inside it.
   template <class Integer>
@@ -57,7 +59,7 @@ class KeyVisitor {
   }
 };
 
-/// Shows the visitor every table and key of a scene, [fiber] once per fiber.
+/// Shows the visitor every table and key of a scene, [fiber] and [flow] once per instance.
 void visit_keys(KeyVisitor& visitor, SceneConfig& scene);
 
 /// "blob: what it means; unit; range; default", one line. `path` is the key's name with its table.
@@ -68,5 +70,8 @@ std::string list_choices(const std::vector<Choice>& choices);
 
 /// "[0.0, 1.0, 0.0]"
 std::string format_vector(const Vec3& vector);
+
+/// "[[0.0, 1.0], [1.0, 1.0]]"
+std::string format_profile(const std::vector<ProfilePoint>& profile);
 
 }  // namespace skein

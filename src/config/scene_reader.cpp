@@ -9,7 +9,7 @@
 namespace skein {
 namespace {
 
-constexpr std::size_t n_fibers_allowed = 100000;
+constexpr std::size_t n_instances_allowed = 100000;
 // More are never shown; a file of garbage need not be searched to its end.
 constexpr std::size_t n_problems_kept = 1000;
 
@@ -39,6 +39,7 @@ class KeyOwners : public KeyVisitor {
   void integer(const Key& key, std::int64_t&) override { compare(key); }
   void number(const Key& key, double&) override { compare(key); }
   void vector(const Key& key, Vec3&) override { compare(key); }
+  void profile(const Key& key, std::vector<ProfilePoint>&) override { compare(key); }
 
   std::vector<std::string> owners;
 
@@ -66,33 +67,43 @@ Origin SceneSource::locate(const Place& place) const {
 }
 
 SceneReader::SceneReader(const SceneValue& root, const SceneSource& source) : root_(root), source_(source) {
-  find_fibers();
+  find_instances("flow", false);
+  find_instances("fiber", true);
 }
 
-void SceneReader::find_fibers() {
-  const SceneValue* fiber = root_.find("fiber");
-  if (fiber == nullptr) {
-    problems_.push_back({source_.locate({1, 1}), "the scene has no fiber: write at least [fiber]", ""});
-  } else if (fiber->kind == SceneValue::Kind::table) {
-    fibers_.push_back(fiber);
-  } else if (!fiber->is_list_of_tables()) {
-    problems_.push_back(
-        {source_.locate(fiber->place), "fiber must be a table: write [fiber], or [[fiber]] for several", ""});
-  } else if (fiber->children.size() > n_fibers_allowed) {
-    problems_.push_back({source_.locate(fiber->place),
-                         fmt::format("{} fibers are more than {}", fiber->children.size(), n_fibers_allowed), ""});
+void SceneReader::find_instances(const std::string& table, const bool required) {
+  std::vector<const SceneValue*>& found = instances_[table];
+  const SceneValue* value = root_.find(table);
+  if (value == nullptr) {
+    if (required)
+      problems_.push_back(
+          {source_.locate({1, 1}), fmt::format("the scene has no {0}: write at least [{0}]", table), ""});
+  } else if (value->kind == SceneValue::Kind::table) {
+    found.push_back(value);
+  } else if (!value->is_list_of_tables()) {
+    problems_.push_back({source_.locate(value->place),
+                         fmt::format("{0} must be a table: write [{0}], or [[{0}]] for several", table), ""});
+  } else if (value->children.size() > n_instances_allowed) {
+    problems_.push_back({source_.locate(value->place),
+                         fmt::format("{} {}s are more than {}", value->children.size(), table, n_instances_allowed),
+                         ""});
   } else {
-    for (const SceneValue& child : fiber->children) fibers_.push_back(&child);
+    for (const SceneValue& child : value->children) found.push_back(&child);
   }
+  if (found.empty() && !required) found.push_back(nullptr);
 }
 
-std::string SceneReader::path_of_fiber(const std::size_t fiber) const {
-  return fibers_.size() > 1 ? fmt::format("fiber[{}]", fiber) : "fiber";
+std::string SceneReader::path_of(const std::string& table, const std::size_t instance) const {
+  return n_instances(table) > 1 ? fmt::format("{}[{}]", table, instance) : table;
 }
 
 const SceneValue* SceneReader::find_table(const Table& table) {
-  if (!table.repeatable || n_fibers_read_ == 0) root_known_.push_back(table.name);
-  if (table.repeatable) return fibers_[n_fibers_read_++];
+  if (table.repeatable) {
+    std::size_t& n_read = n_instances_read_[table.name];
+    if (n_read == 0) root_known_.push_back(table.name);
+    return instances_.at(table.name)[n_read++];
+  }
+  root_known_.push_back(table.name);
   const SceneValue* found = root_.find(table.name);
   if (found == nullptr || found->kind == SceneValue::Kind::table) return found;
   const char* message = found->is_list_of_tables() ? "{0} can be there once only: write [{0}]"
@@ -108,14 +119,14 @@ void SceneReader::begin_table(const Table& table) {
     table_ = &root_;
     return;
   }
-  table_path_ = table.repeatable ? path_of_fiber(n_fibers_read_) : table.name;
+  table_path_ = table.repeatable ? path_of(table.name, n_instances_read_[table.name]) : table.name;
   table_known_.clear();
   table_ = find_table(table);
 }
 
 void SceneReader::end_table() {
   // A scene without fibers shows none to visitors.
-  if (!inside_table_ && fibers_.empty()) root_known_.push_back("fiber");
+  if (!inside_table_ && instances_.at("fiber").empty()) root_known_.push_back("fiber");
   const SceneValue* finished = inside_table_ ? table_ : &root_;
   if (finished != nullptr) {
     for (const SceneValue& child : finished->children) reject_unknown(child);
@@ -233,6 +244,24 @@ void SceneReader::vector(const Key& key, Vec3& value) {
   }
   const auto& c = given->children;
   if (sound) value = {to_number(c[0]), to_number(c[1]), to_number(c[2])};
+}
+
+void SceneReader::profile(const Key& key, std::vector<ProfilePoint>& value) {
+  constexpr const char* wanted = "a list of 2 to 64 pairs [position, factor]";
+  const SceneValue* given = find_value(key, format_profile(value));
+  if (given == nullptr) return;
+  const bool is_list = given->kind == SceneValue::Kind::list && given->n_children >= 2 && given->n_children <= 64;
+  if (!check_kind(*given, is_list, key, wanted)) return;
+
+  std::vector<ProfilePoint> points;
+  for (const SceneValue& pair : given->children) {
+    const bool has_two = pair.kind == SceneValue::Kind::list && pair.n_children == 2;
+    if (!check_kind(pair, has_two, key, wanted)) return;
+    for (const SceneValue& child : pair.children)
+      if (!check_kind(child, is_number(child), key, wanted) || !check_number(child, to_number(child), key)) return;
+    points.push_back({to_number(pair.children[0]), to_number(pair.children[1])});
+  }
+  value = points;
 }
 
 void SceneReader::add(std::vector<Problem>& list, const std::string& path, const std::string& message) const {

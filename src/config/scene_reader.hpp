@@ -31,8 +31,8 @@ class SceneReader : public KeyVisitor {
  public:
   SceneReader(const SceneValue& root, const SceneSource& source);
 
-  /// How many instances of [fiber] the scene must have when its keys are visited.
-  std::size_t n_fibers() const { return fibers_.size(); }
+  /// How many instances of a repeatable table, "fiber" or "flow", the scene must have when its keys are visited.
+  std::size_t n_instances(const std::string& table) const { return instances_.at(table).size(); }
 
   void begin_table(const Table& table) override;
   void end_table() override;
@@ -41,19 +41,21 @@ class SceneReader : public KeyVisitor {
   void integer(const Key& key, std::int64_t& value) override;
   void number(const Key& key, double& value) override;
   void vector(const Key& key, Vec3& value) override;
+  void profile(const Key& key, std::vector<ProfilePoint>& value) override;
 
   std::vector<Problem>& problems() { return problems_; }
 
-  /// Adds to a list what was found about a key; `path` is as in path_of_fiber(i) + ".blob".
+  /// Adds to a list what was found about a key; `path` is as in path_of("fiber", i) + ".blob".
   void add(std::vector<Problem>& list, const std::string& path, const std::string& message) const;
 
   /// False where a key of the table was wrong, so that checks of keys against each other have no ground.
   bool is_sound(const std::string& table) const { return !unsound_.contains(table); }
 
-  std::string path_of_fiber(std::size_t fiber) const;
+  /// "fiber", or "fiber[2]" where there are several.
+  std::string path_of(const std::string& table, std::size_t instance) const;
 
  private:
-  void find_fibers();
+  void find_instances(const std::string& table, bool required);
   const SceneValue* find_table(const Table& table);
   const SceneValue* find_value(const Key& key, const std::string& default_value);
   bool check_kind(const SceneValue& value, bool fits, const Key& key, const char* wanted);
@@ -64,7 +66,8 @@ class SceneReader : public KeyVisitor {
 
   const SceneValue& root_;
   const SceneSource& source_;
-  std::vector<const SceneValue*> fibers_;
+  std::map<std::string, std::vector<const SceneValue*>> instances_;  ///< of repeatable tables; null: left out
+  std::map<std::string, std::size_t> n_instances_read_;
   std::vector<Problem> problems_;
   std::set<std::string> unsound_;
 
@@ -77,7 +80,6 @@ class SceneReader : public KeyVisitor {
   std::string table_path_;
   bool inside_table_ = false;
   std::vector<std::string> table_known_, root_known_;
-  std::size_t n_fibers_read_ = 0;
 };
 
 }  // namespace skein

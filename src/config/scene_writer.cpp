@@ -31,6 +31,10 @@ class WritingVisitor : public KeyVisitor {
   void number(const Key& key, double& value) override { write(key, key.range.text, format_number(value)); }
   void vector(const Key& key, Vec3& value) override { write(key, key.range.text, format_vector(value)); }
 
+  void profile(const Key& key, std::vector<ProfilePoint>& value) override {
+    write(key, key.range.text, format_profile(value));
+  }
+
   std::string written;
 
  protected:
@@ -39,11 +43,9 @@ class WritingVisitor : public KeyVisitor {
 
 class PlainWriter : public WritingVisitor {
  public:
-  explicit PlainWriter(const bool has_several_fibers) : has_several_fibers_(has_several_fibers) {}
-
   void begin_table(const Table& table) override {
     if (table.name.empty()) return;
-    const bool is_list = table.repeatable && has_several_fibers_;
+    const bool is_list = table.repeatable && table.n_instances > 1;
     written += is_list ? fmt::format("\n[[{}]]\n", table.name) : fmt::format("\n[{}]\n", table.name);
   }
 
@@ -51,9 +53,6 @@ class PlainWriter : public WritingVisitor {
   void write(const Key& key, const std::string&, const std::string& value) override {
     written += fmt::format("{} = {}\n", key.name, value);
   }
-
- private:
-  bool has_several_fibers_;
 };
 
 class CommentedWriter : public WritingVisitor {
@@ -87,8 +86,9 @@ class MarkdownWriter : public WritingVisitor {
 }  // namespace
 
 std::string write_scene(const SceneConfig& scene) {
-  PlainWriter writer(scene.fibers.size() > 1);
+  PlainWriter writer;
   SceneConfig copy = scene;  // visitors may change what they see; this one does not
+  if (copy.flows.empty()) copy.flows.push_back({.kind = "none"});  // a scene without [flow] has the default's
   visit_keys(writer, copy);
   return writer.written;
 }

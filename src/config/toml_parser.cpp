@@ -12,7 +12,7 @@ namespace {
 
 // Deeper than any key of a scene. Values below are not looked at, whatever their depth.
 constexpr int n_levels_kept = 5;
-constexpr std::size_t n_list_values_kept = 8;
+constexpr std::size_t n_list_values_kept = 64;
 constexpr int n_key_parts_allowed = 32;
 
 Place make_place(const toml::source_position& position) {

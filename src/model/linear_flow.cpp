@@ -1,25 +1,16 @@
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <skein/core/error.hpp>
 #include <skein/model/linear_flow.hpp>
+
+#include "kernels/flow_velocity.hpp"
 
 namespace skein {
 namespace {
 
-/// The gradient by rows, as a kernel can capture it.
-struct Rows {
-  Vec3 x, y, z;
-};
-
 Vec3 as_vector(const std::array<double, 3>& row) { return {row[0], row[1], row[2]}; }
-
-void add_linear_flow(const Rows& gradient, const Vec3 origin, const ConstVectors& position, const Vectors& velocity) {
-  Kokkos::parallel_for(
-      "skein::add_linear_flow", Kokkos::RangePolicy<ExecSpace>(0, position.extent_int(0)), KOKKOS_LAMBDA(const int i) {
-        const Vec3 d = load(position, i) - origin;
-        store(velocity, i, load(velocity, i) + Vec3{dot(gradient.x, d), dot(gradient.y, d), dot(gradient.z, d)});
-      });
-}
 
 }  // namespace
 
@@ -31,15 +22,38 @@ VelocityGradient make_planar_extension_gradient(const double rate) {
   return {{{-rate, 0.0, 0.0}, {0.0, rate, 0.0}, {0.0, 0.0, 0.0}}};
 }
 
+VelocityGradient make_uniaxial_extension_gradient(const double rate) {
+  return {{{rate, 0.0, 0.0}, {0.0, -0.5 * rate, 0.0}, {0.0, 0.0, -0.5 * rate}}};
+}
+
+VelocityGradient make_rotation_gradient(const double rate) {
+  return {{{0.0, -rate, 0.0}, {rate, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
+}
+
 void LinearFlow::add_velocity(double /*time*/, const ConstVectors& position, const Vectors& velocity) const {
-  SKEIN_REQUIRE(position.extent(0) == velocity.extent(0), "positions and velocities differ in number");
-  add_linear_flow({as_vector(gradient_[0]), as_vector(gradient_[1]), as_vector(gradient_[2])}, origin_, position,
-                  velocity);
+  FlowTerms terms;
+  terms.n_terms = 1;
+  terms.term[0].origin = origin_;
+  terms.term[0].gradient_x = as_vector(gradient_[0]);
+  terms.term[0].gradient_y = as_vector(gradient_[1]);
+  terms.term[0].gradient_z = as_vector(gradient_[2]);
+  add_flow_velocity<ExecSpace>(ExecSpace(), terms, position, velocity);
+}
+
+double LinearFlow::typical_rate() const {
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum += 0.5 * std::pow(gradient_[i][j] + gradient_[j][i], 2);
+  return std::sqrt(sum);
+}
+
+double LinearFlow::time_scale() const {
+  double sum = 0.0;
+  for (const auto& row : gradient_) sum += dot(as_vector(row), as_vector(row));
+  return sum > 0.0 ? 1.0 / std::sqrt(sum) : std::numeric_limits<double>::infinity();
 }
 
 std::string LinearFlow::describe() const {
-  if (gradient_ == make_shear_gradient(gradient_[0][1]))
-    return fmt::format("shear u = ({:g} (y - {:g}), 0, 0)", gradient_[0][1], origin_.y);
   const auto row = [](const std::array<double, 3>& g) { return fmt::format("[{:g}, {:g}, {:g}]", g[0], g[1], g[2]); };
   return fmt::format("linear flow u = G (x - ({:g}, {:g}, {:g})), G = [{}, {}, {}]", origin_.x, origin_.y, origin_.z,
                      row(gradient_[0]), row(gradient_[1]), row(gradient_[2]));

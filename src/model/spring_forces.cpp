@@ -26,7 +26,7 @@ void append_index(std::vector<int>& fiber_of, const int fiber, const int count) 
 SpringArrays<ExecSpace> make_arrays(const std::vector<SpringNetwork>& networks) {
   std::vector<FiberSprings> fibers;
   std::vector<int> fiber_of_node, fiber_of_section, fiber_of_tile;
-  std::vector<double> stiffness, inverse_rest_length;
+  std::vector<double> stiffness, inverse_rest_length, section_factor;
   int reach = 0;
   bool has_wide_sections = false;
 
@@ -45,6 +45,7 @@ SpringArrays<ExecSpace> make_arrays(const std::vector<SpringNetwork>& networks) 
     append_index(fiber_of_node, index, network.n_nodes());
     append_index(fiber_of_section, index, network.n_sections);
     append_index(fiber_of_tile, index, math::ceil_div(network.n_sections, sections_per_tile));
+    for (int section = 0; section < network.n_sections; ++section) section_factor.push_back(network.factor(section, 0));
     reach = std::max(reach, stencil.reach);
     has_wide_sections = has_wide_sections || stencil.nodes_per_section > max_tile_nodes;
     for (std::size_t entry = 0; entry < stencil.stiffness.size(); ++entry) {
@@ -62,6 +63,7 @@ SpringArrays<ExecSpace> make_arrays(const std::vector<SpringNetwork>& networks) 
   arrays.fiber_of_tile = copy_to_device("skein::fiber_of_tile", fiber_of_tile);
   arrays.stiffness = to_device("skein::spring_stiffness", stiffness);
   arrays.inverse_rest_length = to_device("skein::inverse_rest_length", inverse_rest_length);
+  arrays.section_factor = to_device("skein::section_factor", section_factor);
   arrays.has_wide_sections = has_wide_sections;
   if (on_host<ExecSpace>) arrays.reaction = Vectors("skein::spring_reaction", reach * fiber_of_node.size());
   return arrays;

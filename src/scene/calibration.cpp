@@ -10,20 +10,44 @@ namespace {
 /// by 1.4e-8, while strains are far above rounding.
 constexpr double small_bend = 5e-4;
 
-/// Second derivative of the energy of the springs from one section to the next by a strain of the beam, per length of
-/// beam. `stretch(angle between the nodes, rest length)` is the change of a spring's length per strain.
+/// Of springs between sections, weighed by how many there are.
+double mean_factor(const SpringNetwork& network) {
+  double sum = 0.0;
+  for (int section = 0; section + 1 < network.n_sections; ++section) sum += network.factor(section, 1);
+  return sum / (network.n_sections - 1);
+}
+
+/// Second derivative of the energy of the springs between sections by a strain of the beam, per length of beam.
+/// `stretch(sections apart, angle between the nodes, rest length)` is the change of a spring's length per strain.
 template <class Stretch>
 double sum_links(const Fiber& fiber, const Stretch& stretch) {
-  const SpringStencil stencil = make_spring_network(fiber).stencil;
+  const SpringNetwork network = make_spring_network(fiber);
+  const SpringStencil& stencil = network.stencil;
   const int n = stencil.nodes_per_section;
   double sum = 0.0;
-  for (int node = 0; node < n; ++node) {
-    const int entry = stencil.entry(1, node);
-    const double change = stretch(2.0 * std::numbers::pi * node / n, stencil.rest_length[entry]);
-    // d2E/dr2 = k / l at rest; every node of a section has this spring.
-    sum += n * stencil.stiffness[entry] / stencil.rest_length[entry] * change * change;
+  for (int offset = 1; offset <= stencil.reach; ++offset) {
+    for (int node = 0; node < n; ++node) {
+      const int entry = stencil.entry(offset, node);
+      const double change = stretch(offset, 2.0 * std::numbers::pi * node / n, stencil.rest_length[entry]);
+      // d2E/dr2 = k / l at rest; every node of a section has this spring.
+      sum += n * stencil.stiffness[entry] / stencil.rest_length[entry] * change * change;
+    }
   }
-  return sum / fiber.spacing();
+  return mean_factor(network) * sum / fiber.spacing();
+}
+
+/// From what one more section adds to a fiber as short as its springs allow.
+double measure_infinite_bending(const Fiber& fiber, const double curvature) {
+  Fiber shorter = fiber;
+  shorter.config.stiffness_profile = FiberConfig{}.stiffness_profile;
+  shorter.config.sections = fiber.config.reach_along + 1;
+  Fiber longer = shorter;
+  ++longer.config.sections;
+  const auto energy = [curvature](const Fiber& bent) {
+    return compute_spring_energy(make_spring_network(bent), make_bent_nodes(bent, curvature));
+  };
+  return mean_factor(make_spring_network(fiber)) * 2.0 * (energy(longer) - energy(shorter)) /
+         (curvature * curvature * fiber.spacing());
 }
 
 }  // namespace
@@ -58,11 +82,11 @@ BeamStiffness measure_beam_stiffness(const Fiber& fiber) {
   const double radius = fiber.config.radius;
   BeamStiffness stiffness;
   stiffness.bending = measure_bending_rigidity(fiber, curvature);
-  // Sections stay rigid, so all energy is in the N_f - 1 links, alike along an arc.
-  stiffness.infinite_bending = stiffness.bending * fiber.config.sections / (fiber.config.sections - 1);
-  stiffness.axial = sum_links(fiber, [&](double, const double length) { return spacing * spacing / length; });
-  stiffness.torsional = sum_links(fiber, [&](const double angle, const double length) {
-    return spacing * radius * radius * std::sin(angle) / length;
+  stiffness.infinite_bending = measure_infinite_bending(fiber, curvature);
+  stiffness.axial = sum_links(
+      fiber, [&](const int apart, double, const double length) { return std::pow(apart * spacing, 2) / length; });
+  stiffness.torsional = sum_links(fiber, [&](const int apart, const double angle, const double length) {
+    return apart * spacing * radius * radius * std::sin(angle) / length;
   });
   return stiffness;
 }

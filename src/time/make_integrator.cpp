@@ -1,6 +1,7 @@
 #include <skein/time/make_integrator.hpp>
 
 #include <skein/core/error.hpp>
+#include <skein/model/background_flow.hpp>
 #include <skein/time/euler.hpp>
 #include <skein/time/rkc2.hpp>
 
@@ -22,7 +23,8 @@ std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std:
   Rkc2Options options;
   options.tolerance = scene.time.tolerance;
   options.length_scale = length;
-  if (scene.flow.kind != "none" && scene.flow.rate != 0.0) options.time_scale = 1.0 / std::abs(scene.flow.rate);
+  const double flow_time = make_background_flow(scene.flows)->time_scale();
+  if (std::isfinite(flow_time)) options.time_scale = flow_time;
   options.fixed_step = scene.time.step;
   options.max_step = scene.time.max_step;
   options.displacement = 1e-5 * spacing;

@@ -23,7 +23,7 @@ struct PaperFiber {
     scene.fibers = {fiber};
     fibers = make_fibers(scene.fibers);
     dynamics = std::make_unique<FiberDynamics>(
-        fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
+        fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
         std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double));
     state.position = to_device("position", make_surface_nodes(fibers));
   }

@@ -78,6 +78,48 @@ TEST(Calibration, ModuliAreSecondDerivativesOfTheEnergy) {
               1e-4 * stiffness.torsional);
 }
 
+TEST(Calibration, ModuliFollowFamiliesProfileAndReach) {
+  const BeamStiffness plain = measure_beam_stiffness(make_fiber(41));
+  FiberConfig config = make_fiber(41).config;
+  // Plane sections: springs inside them do not stretch.
+  config.stiffness_within_sections = 3.0;
+  config.stiffness_between_sections = 0.5;
+  BeamStiffness found = measure_beam_stiffness(make_fibers({config})[0]);
+  EXPECT_NEAR(found.bending, 0.5 * plain.bending, 1e-9 * plain.bending);
+  EXPECT_NEAR(found.infinite_bending, 0.5 * plain.infinite_bending, 1e-6 * plain.bending);
+  EXPECT_NEAR(found.axial, 0.5 * plain.axial, 1e-12 * plain.axial);
+  EXPECT_NEAR(found.torsional, 0.5 * plain.torsional, 1e-12 * plain.torsional);
+
+  config = make_fiber(41).config;
+  config.stiffness_profile = {{0.0, 1.0}, {1.0, 4.0}};  // mean 2.5
+  found = measure_beam_stiffness(make_fibers({config})[0]);
+  EXPECT_NEAR(found.bending, 2.5 * plain.bending, 1e-9 * plain.bending);
+  EXPECT_NEAR(found.infinite_bending, 2.5 * plain.infinite_bending, 1e-6 * plain.bending);
+  EXPECT_NEAR(found.axial, 2.5 * plain.axial, 1e-12 * plain.axial);
+
+  config = make_fiber(41).config;
+  config.reach_along = 3;
+  config.reach_around = 5;
+  const Fiber far = make_fibers({config})[0];
+  found = measure_beam_stiffness(far);
+  // A long fiber's ends hardly count: its EI is the infinite one, its energies give EA and GJ.
+  config.sections = 600;
+  const Fiber longer = make_fibers({config})[0];
+  EXPECT_NEAR(measure_bending_rigidity(longer, 0.1), found.infinite_bending, 0.005 * found.infinite_bending);
+  const auto energy_per_length = [&](const auto& strain) {
+    auto nodes = make_surface_nodes({longer});
+    for (Vec3& x : nodes) x = strain(x);
+    return compute_spring_energy(make_spring_network(longer), nodes) / longer.length();
+  };
+  const double stretched = energy_per_length([](const Vec3 x) { return Vec3{x.x * (1.0 + 1e-5), x.y, x.z}; });
+  const double twisted = energy_per_length([](const Vec3 x) {
+    const double c = std::cos(1e-2 * x.x), s = std::sin(1e-2 * x.x);
+    return Vec3{x.x, c * x.y - s * x.z, s * x.y + c * x.z};
+  });
+  EXPECT_NEAR(2.0 * stretched / 1e-10, found.axial, 0.005 * found.axial);
+  EXPECT_NEAR(2.0 * twisted / 1e-4, found.torsional, 0.005 * found.torsional);
+}
+
 TEST(Calibration, BentFiberKeepsItsSectionsAndItsCentrelineLength) {
   const Fiber fiber = make_fiber(40);
   constexpr double curvature = 30.0;

@@ -20,7 +20,7 @@ namespace {
 SceneConfig make_scene(const int n_fibers, const std::function<void(TimeConfig&)>& choose) {
   SceneConfig scene;
   scene.fluid.viscosity = 1.3;
-  scene.flow.rate = 2.1;
+  scene.flows[0].rate = 2.1;
   scene.seed = 5;
   FiberConfig fiber;
   fiber.sections = 9;
@@ -38,7 +38,7 @@ SceneConfig make_scene(const int n_fibers, const std::function<void(TimeConfig&)
 struct FiberRun {
   explicit FiberRun(const SceneConfig& scene, const FmmOptions* fmm = nullptr)
       : fibers(make_fibers(scene.fibers)),
-        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flow),
+        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
                  make_some_mobility(scene.fluid.viscosity, fmm)),
         state{0.0, 0, to_device("position", make_surface_nodes(fibers))},
         integrator(make_integrator(scene, fibers, dynamics)),

@@ -32,10 +32,22 @@ SceneConfig make_unusual_scene() {
   scene.title = "quotes \" and \\, a tab\t, a line\nand \xc3\xa9";
   scene.seed = 9223372036854775807u;
   scene.fluid.viscosity = 1.0 / 3.0;
-  scene.flow = {"none", -1e-7 / 7.0};
+  scene.flows = {{"vortices", -1e-7 / 7.0, {1.0 / 3.0, -2.0, 1e-9}, 0.7 / 3.0, -1.0 / 7.0, 33.3, 1.0 / 9.0, 2.2, 1e-3},
+                 {.kind = "none", .rate = 0.1}};
   scene.fibers.resize(2);
   scene.fibers[0] = {113, 9, 0.1 + 0.2, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0}, {0.0, 2.0, -1e-3 / 9.0}, -33.3};
   scene.fibers[1].blob = 5e-3 / 1.7;
+  scene.fibers[1].start_mode = 3;
+  scene.fibers[1].start_amplitude = 0.1 / 7.0;
+  scene.fibers[1].start_plane = -10.0 / 3.0;
+  scene.fibers[1].start_noise = 1e-3 / 3.0;
+  scene.fibers[1].stiffness_profile = {{0.1 / 3.0, 1e-3 / 7.0}, {0.5, 20.0 / 3.0}, {1.0, 1.0}};
+  scene.fibers[1].stiffness_within_sections = 1.0 / 3.0;
+  scene.fibers[1].stiffness_between_sections = 7.0 / 3.0;
+  scene.fibers[1].reach_along = 3;
+  scene.fibers[1].reach_around = 4;
+  scene.placement = {"grid", {0.1, 1.0 / 3.0, -7.0}, {2.0, 3.0, 4.0}, {0.3, 1.0 / 7.0, 2.0},
+                     7,      {3.0, 4.0, 1.0 / 3.0},  1e-3 / 3.0,      "random"};
   scene.hydrodynamics.precision = "single";
   scene.time = {"euler", 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0};
   scene.output = {1.0 / 30.0, "single"};
@@ -46,8 +58,26 @@ void expect_same(const SceneConfig& a, const SceneConfig& b) {
   EXPECT_EQ(a.title, b.title);
   EXPECT_EQ(a.seed, b.seed);
   EXPECT_EQ(a.fluid.viscosity, b.fluid.viscosity);
-  EXPECT_EQ(a.flow.kind, b.flow.kind);
-  EXPECT_EQ(a.flow.rate, b.flow.rate);
+  ASSERT_EQ(a.flows.size(), b.flows.size());
+  for (std::size_t i = 0; i < a.flows.size(); ++i) {
+    EXPECT_EQ(a.flows[i].kind, b.flows[i].kind);
+    EXPECT_EQ(a.flows[i].rate, b.flows[i].rate);
+    EXPECT_EQ(a.flows[i].center, b.flows[i].center);
+    EXPECT_EQ(a.flows[i].size, b.flows[i].size);
+    EXPECT_EQ(a.flows[i].angular_frequency, b.flows[i].angular_frequency);
+    EXPECT_EQ(a.flows[i].phase, b.flows[i].phase);
+    EXPECT_EQ(a.flows[i].start, b.flows[i].start);
+    EXPECT_EQ(a.flows[i].stop, b.flows[i].stop);
+    EXPECT_EQ(a.flows[i].ramp, b.flows[i].ramp);
+  }
+  EXPECT_EQ(a.placement.kind, b.placement.kind);
+  EXPECT_EQ(a.placement.center, b.placement.center);
+  EXPECT_EQ(a.placement.grid, b.placement.grid);
+  EXPECT_EQ(a.placement.spacing, b.placement.spacing);
+  EXPECT_EQ(a.placement.count, b.placement.count);
+  EXPECT_EQ(a.placement.box, b.placement.box);
+  EXPECT_EQ(a.placement.gap, b.placement.gap);
+  EXPECT_EQ(a.placement.orientation, b.placement.orientation);
   ASSERT_EQ(a.fibers.size(), b.fibers.size());
   for (std::size_t i = 0; i < a.fibers.size(); ++i) {
     EXPECT_EQ(a.fibers[i].sections, b.fibers[i].sections);
@@ -58,6 +88,15 @@ void expect_same(const SceneConfig& a, const SceneConfig& b) {
     EXPECT_EQ(a.fibers[i].center, b.fibers[i].center);
     EXPECT_EQ(a.fibers[i].direction, b.fibers[i].direction);
     EXPECT_EQ(a.fibers[i].roll, b.fibers[i].roll);
+    EXPECT_EQ(a.fibers[i].start_mode, b.fibers[i].start_mode);
+    EXPECT_EQ(a.fibers[i].start_amplitude, b.fibers[i].start_amplitude);
+    EXPECT_EQ(a.fibers[i].start_plane, b.fibers[i].start_plane);
+    EXPECT_EQ(a.fibers[i].start_noise, b.fibers[i].start_noise);
+    EXPECT_EQ(a.fibers[i].stiffness_profile, b.fibers[i].stiffness_profile);
+    EXPECT_EQ(a.fibers[i].stiffness_within_sections, b.fibers[i].stiffness_within_sections);
+    EXPECT_EQ(a.fibers[i].stiffness_between_sections, b.fibers[i].stiffness_between_sections);
+    EXPECT_EQ(a.fibers[i].reach_along, b.fibers[i].reach_along);
+    EXPECT_EQ(a.fibers[i].reach_around, b.fibers[i].reach_around);
   }
   EXPECT_EQ(a.hydrodynamics.method, b.hydrodynamics.method);
   EXPECT_EQ(a.hydrodynamics.precision, b.hydrodynamics.precision);
@@ -83,7 +122,8 @@ TEST(SceneFile, TakesEveryKind) {
   EXPECT_EQ(scene.title, "one");
   EXPECT_EQ(scene.seed, 7u);
   EXPECT_EQ(scene.fluid.viscosity, 2.0);
-  EXPECT_EQ(scene.flow.kind, "none");
+  ASSERT_EQ(scene.flows.size(), 1u);
+  EXPECT_EQ(scene.flows[0].kind, "none");
   ASSERT_EQ(scene.fibers.size(), 2u);
   EXPECT_EQ(scene.fibers[0].sections, 12);
   EXPECT_EQ(scene.fibers[0].center, (Vec3{1.0, 2.5, -0.3}));
@@ -124,6 +164,42 @@ TEST(SceneOverrides, ApplyToAllFibersOrOne) {
   EXPECT_EQ(read("[fiber]\n", {"fiber[0].roll=15"}).fibers[0].roll, 15.0);
 }
 
+TEST(SceneFile, SeveralFlowsAddUpAndOverridesNameThem) {
+  const std::string text = "[fiber]\n[[flow]]\nkind = \"shear\"\n[[flow]]\nkind = \"rotation\"\nrate = -1\n";
+  const SceneConfig scene = read(text, {"flow[1].rate=0.5", "flow.ramp=0.1"});
+  ASSERT_EQ(scene.flows.size(), 2u);
+  EXPECT_EQ(scene.flows[0].kind, "shear");
+  EXPECT_EQ(scene.flows[0].rate, 2.5);
+  EXPECT_EQ(scene.flows[1].kind, "rotation");
+  EXPECT_EQ(scene.flows[1].rate, 0.5);
+  EXPECT_EQ(scene.flows[0].ramp, 0.1);
+  EXPECT_EQ(scene.flows[1].ramp, 0.1);
+  EXPECT_EQ(read("[fiber]\n", {"flow[0].rate=3.5"}).flows[0].rate, 3.5);
+  EXPECT_EQ(problems_of("[fiber]\n", {"flow[1].rate=3.5"}),
+            std::vector<std::string>{"--set flow[1].rate=3.5: there is no flow[1]: the scene's last is flow[0]"});
+}
+
+TEST(SceneFile, AProfileIsPairsInOrder) {
+  const std::string key = "[fiber]\nstiffness_profile = ";
+  EXPECT_EQ(read(key + "[[0, 1], [0.5, 0.25], [1, 2.5]]\n").fibers[0].stiffness_profile,
+            (std::vector<ProfilePoint>{{0.0, 1.0}, {0.5, 0.25}, {1.0, 2.5}}));
+  for (const char* wrong : {"[[0, 1]]", "[[0, 1], [1]]", "[[0, 1], 2]", "[[0, 1], [1, nan]]", "[[0, 1], [1, -1]]",
+                            "[[0.5, 1], [0.5, 1]]", "[[0, 1], [1.5, 1]]", "[[0, 1], [1, 0]]", "1.0"})
+    EXPECT_EQ(problems_of(key + wrong + "\n").size(), 1u) << wrong;
+  std::string many;
+  for (int i = 0; i < 64; ++i) many += "[" + std::to_string(i / 64.0) + ", 1.0], ";
+  EXPECT_EQ(read(key + "[" + many + "]\n").fibers[0].stiffness_profile.size(), 64u);
+  EXPECT_EQ(problems_of(key + "[" + many + "[1.0, 1.0]]\n").size(), 1u);
+}
+
+TEST(SceneFile, AGridIsMadeOfWholeNumbersAndItsNodesAreCounted) {
+  const std::string fiber = "[fiber]\nsections = 100\nnodes_per_section = 1000\n[placement]\nkind = \"grid\"\n";
+  EXPECT_EQ(problems_of(fiber + "grid = [1.5, 1, 1]\n").size(), 1u);
+  EXPECT_EQ(problems_of(fiber + "grid = [10, 10, 10]\n").size(), 0u);
+  EXPECT_EQ(problems_of(fiber + "grid = [10, 10, 11]\n").size(), 1u);
+  EXPECT_EQ(problems_of("[fiber]\n[placement]\nkind = \"grid\"\ngrid = [100, 101, 1]\n").size(), 1u);
+}
+
 TEST(SceneOverrides, TakeTomlAndBareWords) {
   const SceneConfig scene = read("[fiber]\n", {"time.method=euler", "time.step=1e-3", "title=a long fiber", "seed=3",
                                                "fiber.center=[0.5, 0, -1]", "flow.kind=\"none\"", "seed=4"});
@@ -132,7 +208,8 @@ TEST(SceneOverrides, TakeTomlAndBareWords) {
   EXPECT_EQ(scene.title, "a long fiber");
   EXPECT_EQ(scene.seed, 4u);
   EXPECT_EQ(scene.fibers[0].center, (Vec3{0.5, 0.0, -1.0}));
-  EXPECT_EQ(scene.flow.kind, "none");
+  ASSERT_EQ(scene.flows.size(), 1u);
+  EXPECT_EQ(scene.flows[0].kind, "none");
 }
 
 TEST(SceneOverrides, HideTheMistakeThatTheyReplace) {

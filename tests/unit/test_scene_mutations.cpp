@@ -59,7 +59,7 @@ TEST(MutatedScene, EveryWrongValueOfEveryKeyIsFoundAtItsLine) {
     if (equals == std::string::npos) continue;
     const std::string key = valid[i].substr(0, equals);
     for (const char* wrong : {"nan", "inf", "-inf", "-1e300", "1e300", "true", "1979-05-27", "{}", "[[1]]", "[]",
-                              "[nan, 0.0, 0.0]", "[0.0, 0.0, 0.0, 0.0]", "\"word\""}) {
+                              "[nan, 1.0, 1.0]", "[0.0, 0.0, 0.0, 0.0]", "\"word\""}) {
       if (key == "title" && wrong[0] == '"') continue;
       auto lines = valid;
       lines[i] = key + " = " + wrong;

@@ -11,7 +11,6 @@ namespace {
 double component(const Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 double& component(Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 
-
 using Long = long double;
 struct LongVec {
   Long x = 0, y = 0, z = 0;
@@ -22,8 +21,20 @@ struct Elastic {
   Long energy = 0;
 };
 
-/// The springs again, in long double: every pair of nodes of a fiber whose sections differ by at most one, with the
-/// rest length measured on the straight fiber along x. Shares no code with the library.
+/// Stiffness of a section relative to the fiber's: straight lines between the points of its profile.
+Long profile_at(const FiberConfig& config, const int section) {
+  const Long at = Long(section) / (config.sections - 1);
+  const auto& points = config.stiffness_profile;
+  if (at <= points.front().position) return points.front().factor;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    if (at <= points[i].position)
+      return points[i - 1].factor + (at - points[i - 1].position) * (Long(points[i].factor) - points[i - 1].factor) /
+                                        (Long(points[i].position) - points[i - 1].position);
+  return points.back().factor;
+}
+
+/// The springs again, in long double: every pair of nodes of a fiber that its reach joins, with the rest length
+/// measured on the straight fiber along x. Shares no code with the library.
 void add_reference(const FiberConfig& config, const int first, const std::vector<Vec3>& position, Elastic& elastic) {
   const int n = config.nodes_per_section;
   const Long pi = std::acos(Long(-1));
@@ -34,15 +45,18 @@ void add_reference(const FiberConfig& config, const int first, const std::vector
   };
   for (int i = 0; i < config.sections * n; ++i) {
     for (int j = 0; j < i; ++j) {
-      if (i / n - j / n > 1) continue;
+      const int apart = i / n - j / n, around = std::min((i - j + 3 * n) % n, (j - i + config.sections * n) % n);
+      if (apart > config.reach_along || (config.reach_around > 0 && around > config.reach_around)) continue;
+      const Long family = apart == 0 ? config.stiffness_within_sections : config.stiffness_between_sections;
+      const Long k = config.spring_stiffness * family * (profile_at(config, i / n) + profile_at(config, j / n)) / 2;
       const LongVec p = rest(i), q = rest(j);
       const Long l = std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
       const Vec3 a = position[first + i], b = position[first + j];
       const LongVec d{Long(a.x) - b.x, Long(a.y) - b.y, Long(a.z) - b.z};
       const Long r = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-      elastic.energy += config.spring_stiffness * l * (r / l - 1) * (r / l - 1) / 2;
+      elastic.energy += k * l * (r / l - 1) * (r / l - 1) / 2;
       if (r == 0) continue;
-      const Long pull = -config.spring_stiffness * (r / l - 1) / r;
+      const Long pull = -k * (r / l - 1) / r;
       LongVec &f = elastic.force[first + i], &g = elastic.force[first + j];
       f = {f.x + pull * d.x, f.y + pull * d.y, f.z + pull * d.z};
       g = {g.x - pull * d.x, g.y - pull * d.y, g.z - pull * d.z};
@@ -93,6 +107,25 @@ std::vector<Shape> shapes() {
       for (const double deformation : {0.02, 1.5}) all.push_back({{make_config(sections, n, 0.3, 0.7)}, deformation});
   all.push_back({{make_config(11, 18, 0.3, 0.7), make_config(7, 5, 0.05, 2.3)}, 0.1});
   all.push_back({{make_config(3, 70, 0.3, 0.7), make_config(4, 6, 0.1, 1.9)}, 0.1});  // more nodes than a tile holds
+  // Springs that differ along the fiber and by family, and reach farther or less far.
+  FiberConfig varied = make_config(13, 7, 0.3, 0.7);
+  varied.stiffness_profile = {{0.1, 0.3}, {0.4, 2.5}, {0.95, 1.1}};
+  varied.stiffness_within_sections = 1.7;
+  varied.stiffness_between_sections = 0.4;
+  FiberConfig far = make_config(11, 9, 0.2, 1.3);
+  far.reach_along = 3;
+  FiberConfig sparse = make_config(9, 68, 0.2, 1.3);
+  sparse.reach_around = 2;
+  sparse.stiffness_profile = {{0.0, 1.0}, {1.0, 3.0}};
+  FiberConfig both = varied;
+  both.reach_along = 2;
+  both.reach_around = 1;
+  for (const double deformation : {0.02, 0.5}) {
+    all.push_back({{varied}, deformation});
+    all.push_back({{far, varied}, deformation});
+    all.push_back({{both, far}, deformation});
+  }
+  all.push_back({{sparse, both}, 0.1});
   return all;
 }
 

@@ -25,6 +25,21 @@ TEST(SpringNetwork, CountsOfOtherSections) {
   for (const int n : {3, 4, 7}) EXPECT_EQ(count_springs(one_fiber(5, n)), 5 * n * (n - 1) / 2 + 4 * n * n);
 }
 
+TEST(SpringNetwork, ReachSetsTheCount) {
+  FiberConfig config;
+  config.sections = 9;
+  config.nodes_per_section = 8;
+  config.reach_along = 3;
+  EXPECT_EQ(count_springs(make_fibers({config})), 9 * 28 + (8 + 7 + 6) * 64);
+  config.reach_around = 2;  // 4 neighbours inside a section, 5 on another
+  EXPECT_EQ(count_springs(make_fibers({config})), 9 * 16 + (8 + 7 + 6) * 8 * 5);
+  config.reach_around = 4;  // the opposite node counts once
+  EXPECT_EQ(count_springs(make_fibers({config})), 9 * 28 + (8 + 7 + 6) * 64);
+  config.reach_along = 8;
+  config.sections = 3;  // fewer than the reach
+  EXPECT_EQ(count_springs(make_fibers({config})), 3 * 28 + 3 * 64);
+}
+
 TEST(SpringNetwork, InnerNodesHave53SpringsAndEndNodes35) {
   std::vector<int> springs_of(6 * 18, 0);
   for (const auto& [node, other] : make_spring_list(one_fiber(6, 18))) {

@@ -16,9 +16,31 @@ struct FluidConfig {
   double viscosity = 1.0;  ///< > 0, force * time / length^2
 };
 
+/// A part of the flow far from all fibers; several instances add up. With x, y, z measured from `center` and r(t) the
+/// rate at time t, its velocity is
+///   "shear"               (r y, 0, 0)
+///   "planar_extension"    (-r x, r y, 0)
+///   "uniaxial_extension"  (r x, -r y/2, -r z/2)
+///   "rotation"            (-r y, r x, 0)
+///   "poiseuille"          (r size/2 (1 - (y/size)^2), 0, 0)
+///   "vortices"            r/k (sin(k x) cos(k y), -cos(k x) sin(k y), 0), k = pi/size
+///   "none"                0
 struct FlowConfig {
-  std::string kind = "shear";  ///< "shear": u = (rate y, 0, 0); "none"
-  double rate = 2.5;           ///< 1 / time
+  std::string kind = "shear";
+  double rate = 2.5;               ///< 1 / time
+  Vec3 center{0.0, 0.0, 0.0};      ///< length
+  double size = 1.0;               ///< > 0, length
+  double angular_frequency = 0.0;  ///< r(t) = rate cos(angular_frequency t + phase), radians / time
+  double phase = 0.0;              ///< degrees
+  double start = 0.0;              ///< time; zero before
+  double stop = 0.0;               ///< time; zero after; 0: never
+  double ramp = 0.0;               ///< time that rise and fall take
+};
+
+/// Springs at `position` along a fiber (0: first section, 1: last) are `factor` times as stiff.
+struct ProfilePoint {
+  double position = 0.0, factor = 1.0;
+  friend bool operator==(const ProfilePoint&, const ProfilePoint&) = default;
 };
 
 /// One tube of surface nodes, straight at rest; several instances make several fibers.
@@ -31,6 +53,29 @@ struct FiberConfig {
   Vec3 center{0.0, 0.0, 0.0};        ///< length
   Vec3 direction{1.0, 0.0, 0.0};     ///< any length but zero
   double roll = 0.0;                 ///< degrees, about the direction
+
+  int start_mode = 1;            ///< half waves of the bend at the start, >= 1
+  double start_amplitude = 0.0;  ///< of that bend, as a fraction of the fiber's length
+  double start_plane = 0.0;      ///< degrees about the direction; 0: towards y for a fiber along x
+  double start_noise = 0.0;      ///< amplitude of random bends, as a fraction of the fiber's length
+
+  std::vector<ProfilePoint> stiffness_profile{{0.0, 1.0}, {1.0, 1.0}};  ///< straight lines between the points
+  double stiffness_within_sections = 1.0;                               ///< factor of spring_stiffness
+  double stiffness_between_sections = 1.0;                              ///< factor of spring_stiffness
+  int reach_along = 1;                                                  ///< springs join sections up to this far apart
+  int reach_around = 0;  ///< ... and nodes whose places on their sections differ by up to this; 0: all
+};
+
+/// Where the fibers of a scene stand.
+struct PlacementConfig {
+  std::string kind = "as_written";         ///< "as_written", "grid", "random"
+  Vec3 center{0.0, 0.0, 0.0};              ///< of grid or box, length
+  Vec3 grid{1.0, 1.0, 1.0};                ///< numbers of fibers along x, y, z
+  Vec3 spacing{0.1, 0.1, 0.1};             ///< of the grid, length
+  int count = 10;                          ///< of random fibers
+  Vec3 box{1.0, 1.0, 1.0};                 ///< sides of the box that holds random fibers, length
+  double gap = 0.0;                        ///< between surfaces of random fibers at least, length
+  std::string orientation = "as_written";  ///< "as_written", "random"
 };
 
 struct HydrodynamicsConfig {
@@ -67,8 +112,9 @@ struct SceneConfig {
   std::string title;
   std::uint64_t seed = 1;
   FluidConfig fluid;
-  FlowConfig flow;
+  std::vector<FlowConfig> flows{FlowConfig{}};
   std::vector<FiberConfig> fibers;
+  PlacementConfig placement;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;

@@ -16,8 +16,8 @@
 #define SKEIN_ON_DEVICE 0
 #endif
 
-/// A formula that device kernels and CPU vector types share. constexpr rather than __host__ __device__: nvcc then compiles
-/// it for the device only where device code calls it, and so never for CPU vectors, which it refuses there.
+/// A formula that device kernels and CPU vector types share. constexpr rather than __host__ __device__: nvcc then
+/// compiles it for the device only where device code calls it, and so never for CPU vectors, which it refuses there.
 #define SKEIN_FORMULA [[gnu::always_inline]] constexpr inline
 
 namespace skein::math {
@@ -35,6 +35,21 @@ KOKKOS_INLINE_FUNCTION float sqrt(const float x) {
   return ::sqrtf(x);
 #else
   return std::sqrt(x);
+#endif
+}
+
+KOKKOS_INLINE_FUNCTION double sin(const double x) {
+#if SKEIN_ON_DEVICE
+  return ::sin(x);
+#else
+  return std::sin(x);
+#endif
+}
+KOKKOS_INLINE_FUNCTION double cos(const double x) {
+#if SKEIN_ON_DEVICE
+  return ::cos(x);
+#else
+  return std::cos(x);
 #endif
 }
 

@@ -16,12 +16,13 @@ std::vector<Vec3> make_bent_nodes(const Fiber& fiber, double curvature);
 /// EI = 2 E / (curvature^2 L), L = N_f ds, from the energy E of the bent fiber. force * length^2
 double measure_bending_rigidity(const Fiber& fiber, double curvature);
 
-/// Stiffness of the fiber as a beam.
+/// Stiffness of the fiber as a beam; where it varies along the fiber, the mean.
 struct BeamStiffness {
-  double bending = 0.0;           ///< EI of this fiber as curvature -> 0, force * length^2
-  double infinite_bending = 0.0;  ///< EI without ends: bending = (N_f - 1)/N_f of it
-  double axial = 0.0;             ///< EA, sections rigid and plane, without ends, force
-  double torsional = 0.0;         ///< GJ, sections rigid and plane, without ends, force * length^2
+  double bending = 0.0;  ///< EI of this fiber as curvature -> 0, force * length^2
+  double infinite_bending =
+      0.0;                 ///< EI without ends: bending = (N_f - 1)/N_f of it where springs join adjacent sections only
+  double axial = 0.0;      ///< EA, sections rigid and plane, without ends, force
+  double torsional = 0.0;  ///< GJ, sections rigid and plane, without ends, force * length^2
 };
 BeamStiffness measure_beam_stiffness(const Fiber& fiber);
 

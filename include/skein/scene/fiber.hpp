@@ -3,6 +3,7 @@
 #include <skein/config/scene_config.hpp>
 #include <skein/core/vec3.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace skein {
@@ -13,6 +14,7 @@ struct Fiber {
   FiberConfig config;
   int first_node = 0;
   int first_section = 0;
+  int index = 0;  ///< of the fiber among all
 
   int n_nodes() const { return config.sections * config.nodes_per_section; }
   double spacing() const;  ///< between sections: the chord 2 R sin(pi / N_c) between neighbours on a section, length
@@ -25,10 +27,12 @@ std::vector<Fiber> make_fibers(const std::vector<FiberConfig>& configs);
 int count_nodes(const std::vector<Fiber>& fibers);
 int count_sections(const std::vector<Fiber>& fibers);
 
-/// Straight fibers: node a of section s at angle 2 pi a / N_c on the circle of radius R about
-/// center + (s - (N_f - 1)/2) spacing direction. Angle 0 points along y for a fiber along x with roll 0.
+/// Nodes at the start. Straight fibers: node a of section s at angle 2 pi a / N_c on the circle of radius R about
+/// center + (s - (N_f - 1)/2) spacing direction. Angle 0 points along y for a fiber along x with roll 0. Bent ones: the
+/// same on the sections of make_section_poses.
+/// @param seed  of random bends
 /// @returns [n_nodes], length
-std::vector<Vec3> make_surface_nodes(const std::vector<Fiber>& fibers);
+std::vector<Vec3> make_surface_nodes(const std::vector<Fiber>& fibers, std::uint64_t seed = 1);
 
 /// The blob of every node. @returns [n_nodes], length
 std::vector<double> make_blobs(const std::vector<Fiber>& fibers);

@@ -28,11 +28,17 @@ struct SpringNetwork {
   int first_node = 0;
   int n_sections = 0;
   SpringStencil stencil;
+  std::vector<double> section_factor;  ///< [n_sections], of the stencil's stiffness; empty: 1
 
+  /// Of springs from a section to one `offset` further on: the mean of both.
+  double factor(const int section, const int offset) const {
+    return section_factor.empty() ? 1.0 : 0.5 * (section_factor[section] + section_factor[section + offset]);
+  }
   int n_nodes() const { return n_sections * stencil.nodes_per_section; }
 };
 
-/// Every pair inside a section and every pair between adjacent sections, all of stiffness k.
+/// Every pair inside a section and every pair between adjacent sections, all of stiffness k, where the fiber asks for
+/// nothing else (reach_along, reach_around, stiffness_profile and the factors within and between sections).
 SpringNetwork make_spring_network(const Fiber& fiber);
 std::vector<SpringNetwork> make_spring_networks(const std::vector<Fiber>& fibers);
 
