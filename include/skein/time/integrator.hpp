@@ -22,6 +22,7 @@ struct StepReport {
   double spectral_radius = 0.0;  ///< estimate in use, 1 / time; 0 where none is made
   int stages = 1;
   int rejected = 0;  ///< attempts thrown away before this step
+  std::string rejection;  ///< why the last of them was
 };
 
 /// Advances a State by one step of its own choice.
