@@ -116,6 +116,9 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
   if (!started_) {
     Kokkos::deep_copy(ExecSpace(), end_, state.position);
     rhs_.compute_velocity(state.time, end_, end_velocity_);
+    const std::string fault = find_velocity_fault(end_, end_velocity_);
+    if (!fault.empty())
+      throw Error(ExitCode::numerical, fmt::format("t = {:.6g}: velocities are not finite; {}", state.time, fault));
   }
   prepare(state.time, end_, end_velocity_);
   if (!started_) next_dt_ = first_step(state.time);
@@ -136,7 +139,9 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
     report.stages = result.stages;
     report.error = result.error;
     std::string fault;
-    if (result.failure.empty()) {
+    if (!result.failure.empty()) {
+      if (!std::isfinite(result.error)) fault = find_velocity_fault(end_, end_velocity_);
+    } else {
       fault = rhs_.find_fault(end_);
       if (fault.empty() && !std::isfinite(result.error)) fault = find_velocity_fault(end_, end_velocity_);
       // The velocity at the end belongs to the next step's memory: it has to be a number, too.

@@ -4,6 +4,7 @@
 #include <skein/model/background_flow.hpp>
 #include <skein/model/spring_forces.hpp>
 #include <skein/scene/fiber.hpp>
+#include <skein/time/fiber_linearization.hpp>
 #include <skein/time/right_hand_side.hpp>
 
 #include <memory>
@@ -26,6 +27,9 @@ class FiberDynamics final : public RightHandSide {
 
   std::int64_t evaluations() const override { return evaluations_; }
 
+  /// M(position) dF/dx: neither the flow's gradient nor the change of M, which are no faster than the shear.
+  Linearization* linearization() override;
+
   /// Wall time spent in evaluations, by parts, seconds. On a device, where waiting costs, an estimate from one in
   /// sixteen of them.
   struct Seconds {
@@ -39,6 +43,9 @@ class FiberDynamics final : public RightHandSide {
   const Mobility& mobility() const { return *mobility_; }
 
  private:
+  double measure_viscosity();
+  void multiply(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result);
+
   std::vector<Fiber> fibers_;
   std::unique_ptr<SpringForces> springs_;
   std::unique_ptr<BackgroundFlow> flow_;
@@ -47,6 +54,7 @@ class FiberDynamics final : public RightHandSide {
   Vectors force_;
   std::int64_t evaluations_ = 0;
   Seconds seconds_;
+  std::unique_ptr<FiberLinearization> linearization_;
 };
 
 }  // namespace skein
