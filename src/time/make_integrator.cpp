@@ -4,7 +4,7 @@
 #include <skein/time/euler.hpp>
 #include <skein/time/explicit_runge_kutta.hpp>
 #include <skein/time/rkc2.hpp>
-#include <skein/time/rosenbrock.hpp>
+#include <skein/time/tr_bdf2.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std:
   if (method == "rk4")
     return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
   if (method == "bs3") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
-  if (method == "ros2") return std::make_unique<Rosenbrock>(rhs, options, n_nodes);
+  if (method == "trbdf2") return std::make_unique<TrBdf2>(rhs, options, n_nodes);
   SKEIN_REQUIRE(method == "rkc2", "unknown integrator '" + method + "'");
   return std::make_unique<Rkc2>(rhs, options, n_nodes);
 }
