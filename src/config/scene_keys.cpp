@@ -63,7 +63,8 @@ void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics
 void visit_time(KeyVisitor& visitor, TimeConfig& time) {
   visitor.begin_table({"time", false, "How time advances."});
   visitor.choice({"method", "", {}, "time integration"},
-                 {{"rkc2", "stabilized Runge-Kutta-Chebyshev of second order, with error control"},
+                 {{"auto", "rkc2 or trbdf2, whichever is expected to do with less work; the log says why"},
+                  {"rkc2", "stabilized Runge-Kutta-Chebyshev of second order, with error control"},
                   {"trbdf2", "implicit of second order, with GMRES and error control: for very stiff springs"},
                   {"rk4", "explicit Runge-Kutta of fourth order, with error control; bound by stability"},
                   {"bs3", "explicit Runge-Kutta of third order by Bogacki and Shampine, with error control; likewise"},

@@ -3,7 +3,9 @@
 #include <skein/core/error.hpp>
 #include <skein/time/euler.hpp>
 #include <skein/time/explicit_runge_kutta.hpp>
+#include <skein/time/method_selection.hpp>
 #include <skein/time/rkc2.hpp>
+#include <skein/time/spectral_radius.hpp>
 #include <skein/time/tr_bdf2.hpp>
 
 #include <algorithm>
@@ -16,12 +18,35 @@ Rkc2Options make_options(const SceneConfig& scene, const double length, const do
   Rkc2Options options;
   options.tolerance = scene.time.tolerance;
   options.length_scale = length;
+  options.detail_scale = spacing;
   if (scene.flow.kind != "none" && scene.flow.rate != 0.0) options.time_scale = 1.0 / std::abs(scene.flow.rate);
   options.fixed_step = scene.time.step;
   options.max_step = scene.time.max_step;
   options.displacement = 1e-5 * spacing;
   options.seed = scene.seed;
   return options;
+}
+
+std::unique_ptr<Integrator> make_controlled(const std::string& method, const Rkc2Options& options, RightHandSide& rhs,
+                                            const int n_nodes) {
+  if (method == "rk4")
+    return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
+  if (method == "bs3") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
+  if (method == "trbdf2") return std::make_unique<TrBdf2>(rhs, options, n_nodes);
+  SKEIN_REQUIRE(method == "rkc2", "unknown integrator '" + method + "'");
+  return std::make_unique<Rkc2>(rhs, options, n_nodes);
+}
+
+// From the straight fibers of the start, also where a run goes on: the choice is the same then.
+MethodSelection select(const Rkc2Options& options, const std::vector<Fiber>& fibers, RightHandSide& rhs) {
+  const Vectors position = to_device("skein::make_integrator::position", make_surface_nodes(fibers));
+  const Vectors velocity("skein::make_integrator::velocity", position.extent(0));
+  rhs.compute_velocity(0.0, position, velocity);
+  SpectralRadius power_iteration(position.extent_int(0), options.displacement, options.seed);
+  const double radius = power_iteration.estimate(rhs, 0.0, position, velocity, 0.05, 30);
+  const Linearization* linearization = rhs.linearization();
+  return select_method(options, radius, linearization == nullptr ? 0.0 : linearization->factorization_cost(),
+                       linearization == nullptr ? -1.0 : linearization->preconditioning_cost());
 }
 
 }  // namespace
@@ -34,15 +59,12 @@ std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std:
     length = std::max(length, fiber.length());
     spacing = std::min(spacing, fiber.spacing());
   }
-  const std::string& method = scene.time.method;
-  if (method == "euler") return std::make_unique<Euler>(rhs, scene.time.step, length, n_nodes);
+  if (scene.time.method == "euler") return std::make_unique<Euler>(rhs, scene.time.step, length, n_nodes);
   const Rkc2Options options = make_options(scene, length, spacing);
-  if (method == "rk4")
-    return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
-  if (method == "bs3") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
-  if (method == "trbdf2") return std::make_unique<TrBdf2>(rhs, options, n_nodes);
-  SKEIN_REQUIRE(method == "rkc2", "unknown integrator '" + method + "'");
-  return std::make_unique<Rkc2>(rhs, options, n_nodes);
+  if (scene.time.method != "auto") return make_controlled(scene.time.method, options, rhs, n_nodes);
+  const MethodSelection selection = select(options, fibers, rhs);
+  return std::make_unique<SelectedIntegrator>(make_controlled(selection.method, options, rhs, n_nodes),
+                                              selection.reason);
 }
 
 }  // namespace skein

@@ -64,11 +64,8 @@ double Rkc2::probe_step() const {
   return spectral_radius_ > 0.0 ? std::min(options_.max_step, 1.0 / spectral_radius_) : options_.max_step;
 }
 
-/// A fiber along the flow turns slowly, and what it is off by then grows with the square of its aspect ratio until it
-/// flips: no local estimate sees that. The bound makes the error at the end fall with the tolerance (L = 0.139 orbit at
-/// t = 6: 2.3e-4 L with steps up to 0.1, as the square of the bound).
 double Rkc2::largest_step() const {
-  double dt = std::min(options_.max_step, 12.0 * std::sqrt(options_.tolerance) * options_.time_scale);
+  double dt = ControlledIntegrator::largest_step();
   if (spectral_radius_ > 0.0)
     dt = std::min(dt, static_cast<double>(max_stages) * max_stages / (1.6 * spectral_radius_));
   return dt;

@@ -22,7 +22,8 @@ constexpr double side_weight = 0.25 * std::numbers::sqrt2;  // of both earlier v
 constexpr int max_iterations = 60;      // of GMRES
 constexpr int max_newton_steps = 6;
 constexpr double stage_share = 0.1;     // of the error allowed in a step, for a stage's equation
-constexpr double solver_share = 0.05;   // likewise, for a linear system
+constexpr double solver_share = 0.5;     // of that, for a linear system
+constexpr double detail_share = 1e-3;    // of the node spacing, for a stage's equation
 constexpr double least_error = 0.05;    // over the tolerance
 constexpr double max_scale_ratio = 2.0;  // of the matrix' scale to that of the preconditioner, either way
 
@@ -80,11 +81,18 @@ void TrBdf2::update_preconditioner(const double scale) {
   }
 }
 
+/// What a stage's equation may be off by, length: also where the fiber is long and the tolerance loose, little against
+/// the node spacing, or stiff sections would be deformed by what the solver leaves.
+double TrBdf2::stage_tolerance(const double dt) const {
+  const double share = stage_share * allowed_error(dt);
+  return options_.detail_scale > 0.0 ? std::min(share, detail_share * options_.detail_scale) : share;
+}
+
 std::string TrBdf2::solve_stage(const double time, const double dt, const ConstVectors& constant,
                                 const Vectors& stage_velocity) {
   const ExecSpace space;
   const double scale = diagonal * dt;
-  const double allowed = allowed_error(dt);
+  const double tolerance = stage_tolerance(dt);
   const double not_finite = std::numeric_limits<double>::quiet_NaN();
   double last_size = 0.0;
   for (int step = 0; step < max_newton_steps; ++step) {
@@ -94,7 +102,7 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
     combine<ExecSpace>(space, scratch_, {1.0, constant}, {-1.0, end_});
     combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {scale, stage_velocity});
     Kokkos::deep_copy(space, correction_, 0.0);
-    const Gmres::Result solved = gmres_.solve(linearization_, scale, scratch_, correction_, solver_share * allowed);
+    const Gmres::Result solved = gmres_.solve(linearization_, scale, scratch_, correction_, solver_share * tolerance);
     iterations_ += solved.iterations;
     combine<ExecSpace>(space, end_, {1.0, end_}, {1.0, correction_});
     if (!std::isfinite(solved.residual)) {
@@ -104,11 +112,11 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
     }
     if (!solved.converged)
       return fmt::format("GMRES stalled after {} iterations at {:.3g} of its tolerance", solved.iterations,
-                         solved.residual / (solver_share * allowed));
+                         solved.residual / (solver_share * tolerance));
     const double size = root_mean_square<ExecSpace>(space, correction_);
     // What the matrix lacks is as slow as the flow: that is how the error of the first step is known.
     const double rate = step == 0 ? std::min(0.5, scale / options_.time_scale) : size / last_size;
-    if (size == 0.0 || rate * size <= stage_share * allowed) {
+    if (size == 0.0 || rate * size <= tolerance) {
       combine<ExecSpace>(space, stage_velocity, {1.0 / scale, end_}, {-1.0 / scale, constant});
       return {};
     }

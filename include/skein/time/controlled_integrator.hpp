@@ -11,10 +11,14 @@ namespace skein {
 struct ControlOptions {
   double tolerance = 1e-4;    ///< error per unit time over the length scale
   double length_scale = 1.0;  ///< length
+  double detail_scale = 0.0;  ///< node spacing, length; 0: not known
   double time_scale = 1.0;    ///< of the flow, 1 / shear rate; time
   double fixed_step = 0.0;    ///< > 0 switches the error control off
   double max_step = 0.1;      ///< time
 };
+
+/// The largest step that error control may take: max_step, or less where the tolerance asks for it.
+double largest_controlled_step(const ControlOptions& options);
 
 /// One-step methods that estimate their error: what they share is here, the attempt of a step is theirs. A rejected
 /// attempt leaves no trace but in the controller, a step that throws none at all.
@@ -49,7 +53,7 @@ class ControlledIntegrator : public Integrator {
   virtual void keep_memory() = 0;
   virtual void bring_memory_back() = 0;
 
-  virtual double largest_step() const { return options_.max_step; }
+  virtual double largest_step() const;
   virtual double spectral_radius() const { return 0.0; }
   virtual double probe_step() const;  ///< for the guess of the first step, time
 

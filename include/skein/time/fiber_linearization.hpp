@@ -28,6 +28,7 @@ class FiberLinearization final : public Linearization {
   void multiply(const ConstVectors& v, const Vectors& result) override;
   bool factorize(const ConstVectors& position, double scale) override;
   double factorization_cost() const override;
+  double preconditioning_cost() const override;
   void precondition(const ConstVectors& v, const Vectors& result) override;
   std::string describe() const override;
 
@@ -38,6 +39,7 @@ class FiberLinearization final : public Linearization {
   };
   std::vector<Frame> make_frames(const std::vector<Vec3>& position) const;
   void update_turns();
+  double evaluations_for(double operations) const;
 
   std::vector<Fiber> fibers_;
   std::vector<SpringNetwork> networks_;

@@ -22,8 +22,10 @@ class Linearization {
   /// other positions. @param scale  >= 0, time. @returns false where there is none
   virtual bool factorize(const ConstVectors& position, double scale) = 0;
 
-  /// What that costs, in evaluations. A property of the size of things, not of clocks.
+  /// What that costs, and what one use of the inverse does, in evaluations. Properties of the size of things, not of
+  /// clocks, so that what is decided by them is decided alike in every run.
   virtual double factorization_cost() const = 0;
+  virtual double preconditioning_cost() const = 0;
 
   /// Overwrites result with that approximate inverse times v. result may be v.
   virtual void precondition(const ConstVectors& v, const Vectors& result) = 0;

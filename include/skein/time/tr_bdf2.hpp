@@ -36,6 +36,8 @@ class TrBdf2 final : public ControlledIntegrator {
   void update_preconditioner(double scale);
   void factorize(double scale);
 
+  double stage_tolerance(double dt) const;
+
   /// Solves z = constant + scale F(time, z), starting from z = end_, into end_; the stage's velocity from the equation
   /// itself, without the stiff noise of one more evaluation.
   /// @returns why there is no solution; empty where there is one
