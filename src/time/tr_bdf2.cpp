@@ -20,12 +20,13 @@ constexpr double diagonal = 0.5 * gamma;                  // of both stages' equ
 constexpr double side_weight = 0.25 * std::numbers::sqrt2;  // of both earlier velocities in the last stage
 
 constexpr int max_iterations = 60;      // of GMRES
-constexpr int max_newton_steps = 6;
-constexpr double stage_share = 0.1;     // of the error allowed in a step, for a stage's equation
+constexpr int max_newton_steps = 10;
+constexpr double stage_share = 0.02;    // of the error allowed in a step, for a stage's equation
 constexpr double solver_share = 0.5;     // of that, for a linear system
+constexpr double newton_curvature = 5.0;  // rate of Newton's method over correction / node spacing, measured
 constexpr double detail_share = 1e-3;    // of the node spacing, for a stage's equation
 constexpr double least_error = 0.05;    // over the tolerance
-constexpr double max_scale_ratio = 2.0;  // of the matrix' scale to that of the preconditioner, either way
+constexpr double max_scale_ratio = 4.0;  // of the matrix' scale to that of the preconditioner, either way
 
 Linearization& get_linearization(RightHandSide& rhs) {
   Linearization* linearization = rhs.linearization();
@@ -114,13 +115,15 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
       return fmt::format("GMRES stalled after {} iterations at {:.3g} of its tolerance", solved.iterations,
                          solved.residual / (solver_share * tolerance));
     const double size = root_mean_square<ExecSpace>(space, correction_);
-    // What the matrix lacks is as slow as the flow: that is how the error of the first step is known.
-    const double rate = step == 0 ? std::min(0.5, scale / options_.time_scale) : size / last_size;
-    if (size == 0.0 || rate * size <= tolerance) {
+    // What the matrix lacks is as slow as the flow, and it changes over distances like the node spacing: that is how the
+    // error of the first step is guessed.
+    const double bend = options_.detail_scale > 0.0 ? newton_curvature * size / options_.detail_scale : 0.0;
+    const double rate = step == 0 ? std::min(0.5, scale / options_.time_scale + bend) : size / last_size;
+    if (size == 0.0 || std::min(rate, 1.0) * size <= tolerance) {
       combine<ExecSpace>(space, stage_velocity, {1.0 / scale, end_}, {-1.0 / scale, constant});
       return {};
     }
-    if (step > 0 && rate > 0.9) return fmt::format("Newton's method does not converge (rate {:.2g})", rate);
+    if (step > 0 && rate > 2.0) return fmt::format("Newton's method does not converge (rate {:.2g})", rate);
     last_size = size;
   }
   return fmt::format("Newton's method took more than {} steps", max_newton_steps);
