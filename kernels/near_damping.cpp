@@ -85,25 +85,21 @@ void compute_near_damping(const NearFiber& fiber, const std::vector<Vec3>& posit
       coupling[s * (reach + 1) + offset] = add_springs(fiber, position, s, offset, own[s], own[s + offset]);
 
   band.set_to_zero();
-  Kokkos::parallel_for("skein::compute_near_damping", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sections),
-                       [&](const int s) {
-                         const auto target = [&](const int t) {
-                           return Eigen::Map<Block>(band.block(s, t), 3 * n, 3 * n);
-                         };
-                         for (int u = std::max(0, s - width); u <= std::min(n_sections - 1, s + width); ++u) {
-                           const double taper = 1.0 - std::abs(s - u) / (width + 1.0);
-                           const Block mobility = make_mobility(fiber, position, s, u, scale * taper);
-                           target(u).noalias() += mobility * own[u];
-                           for (int offset = 1; offset <= reach; ++offset) {
-                             if (u + offset < n_sections)
-                               target(u + offset).noalias() += mobility * coupling[u * (reach + 1) + offset];
-                             if (u - offset >= 0)
-                               target(u - offset).noalias() +=
-                                   mobility * coupling[(u - offset) * (reach + 1) + offset].transpose();
-                           }
-                         }
-                         target(s).diagonal().array() += 1.0;
-                       });
+  Kokkos::parallel_for(
+      "skein::compute_near_damping", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sections), [&](const int s) {
+        const auto target = [&](const int t) { return Eigen::Map<Block>(band.block(s, t), 3 * n, 3 * n); };
+        for (int u = std::max(0, s - width); u <= std::min(n_sections - 1, s + width); ++u) {
+          const double taper = 1.0 - std::abs(s - u) / (width + 1.0);
+          const Block mobility = make_mobility(fiber, position, s, u, scale * taper);
+          target(u).noalias() += mobility * own[u];
+          for (int offset = 1; offset <= reach; ++offset) {
+            if (u + offset < n_sections) target(u + offset).noalias() += mobility * coupling[u * (reach + 1) + offset];
+            if (u - offset >= 0)
+              target(u - offset).noalias() += mobility * coupling[(u - offset) * (reach + 1) + offset].transpose();
+          }
+        }
+        target(s).diagonal().array() += 1.0;
+      });
   HostSpace().fence();
 }
 

@@ -22,9 +22,9 @@ struct NearFiber {
 /// The half width of the band that compute_near_damping fills.
 inline int near_half_width(const NearFiber& fiber, const int width) { return width + fiber.reach; }
 
-/// Overwrites the band with I - scale M_near dF/dx: M_near is the mobility of nodes at most `width` sections apart, less
-/// and less with their distance, in proportion to 1 - |s - s'| / (width + 1). That factor is positive definite as a
-/// function of s - s', so that M_near is, too (Schur's product theorem): a sharp cut would not be.
+/// Overwrites the band with I - scale M_near dF/dx: M_near is the mobility of nodes at most `width` sections apart,
+/// less and less with their distance, in proportion to 1 - |s - s'| / (width + 1). That factor is positive definite as
+/// a function of s - s', so that M_near is, too (Schur's product theorem): a sharp cut would not be.
 /// @param position  [n_sections nodes_per_section], length
 /// @param scale     >= 0, time
 void compute_near_damping(const NearFiber& fiber, const std::vector<Vec3>& position, int width, double scale,

@@ -56,7 +56,7 @@ void compute_spring_force_change(const Space& space, const SpringArrays<Space>& 
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                               \
+#define SKEIN_INSTANTIATE(S)                                                                                \
   template void compute_spring_force_change<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
                                                const ConstVectorView<S>&, const VectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)

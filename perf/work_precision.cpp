@@ -1,4 +1,5 @@
-// One run of a shear orbit by one method: what it cost, and where its nodes went, for perf/plot_work_precision.py.
+// One run of a shear orbit by one method: what it cost, and where its nodes went, for perf/plot_work_precision.py and
+// perf/stability_atlas.py. Arguments are key=value; fewer nodes on a section keep the bending stiffness.
 
 #include <skein/core/runtime.hpp>
 #include <skein/hydro/direct_mobility.hpp>
@@ -21,17 +22,18 @@ namespace {
 
 struct Choice {
   std::string method = "rkc2", output;
-  double tolerance = 1e-4, step = 0.0, max_step = 0.0, length = 0.139, end = 6.0, stiffness = 1.0, sample = 0.25;
-  int nodes = 6;
+  double tolerance = 1e-4, step = 0.0, max_step = 0.0, length = 0.139, end = 6.0, stiffness = 1.0, blob = 1.0,
+         sample = 0.25;
+  int nodes = 6, sections = 0;
   bool verbose = false;
 };
 
 Choice read_choice(const int argc, char** argv) {
   Choice choice;
   const std::map<std::string, double*> numbers = {
-      {"tolerance", &choice.tolerance}, {"step", &choice.step},           {"max_step", &choice.max_step},
-      {"length", &choice.length},       {"end", &choice.end},             {"stiffness", &choice.stiffness},
-      {"sample", &choice.sample}};
+      {"tolerance", &choice.tolerance}, {"step", &choice.step},    {"max_step", &choice.max_step},
+      {"length", &choice.length},       {"end", &choice.end},      {"stiffness", &choice.stiffness},
+      {"blob", &choice.blob},           {"sample", &choice.sample}};
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const auto equals = argument.find('=');
@@ -42,6 +44,8 @@ Choice read_choice(const int argc, char** argv) {
       choice.method = value;
     else if (key == "output")
       choice.output = value;
+    else if (key == "sections")
+      choice.sections = std::atoi(value.c_str());
     else if (key == "nodes")
       choice.nodes = std::atoi(value.c_str());
     else if (key == "verbose")
@@ -57,11 +61,13 @@ SceneConfig make_scene(const Choice& choice) {
   SceneConfig scene;
   FiberConfig paper, fiber;
   fiber.nodes_per_section = choice.nodes;
-  fiber.sections = std::max(3, static_cast<int>(std::lround(
-                                   choice.length / (2.0 * fiber.radius * std::sin(M_PI / choice.nodes)))));
+  fiber.sections =
+      std::max(3, static_cast<int>(std::lround(choice.length / (2.0 * fiber.radius * std::sin(M_PI / choice.nodes)))));
+  if (choice.sections > 0) fiber.sections = choice.sections;
   const double wanted = measure_beam_stiffness(make_fibers({paper}).front()).infinite_bending;
   const double found = measure_beam_stiffness(make_fibers({fiber}).front()).infinite_bending;
   fiber.spring_stiffness *= choice.stiffness * wanted / found;
+  fiber.blob *= choice.blob;
   scene.fibers = {fiber};
   scene.time.method = choice.method;
   scene.time.tolerance = choice.tolerance;
@@ -83,6 +89,7 @@ int run(const Choice& choice) {
   if (!choice.output.empty()) out.open(choice.output, std::ios::binary);
   std::int64_t rejected = 0, samples = 1;
   double error = 0.0, work = 0.0;
+  bool failed = false;
   const auto start = std::chrono::steady_clock::now();
   try {
     while (state.time < choice.end) {
@@ -104,6 +111,7 @@ int run(const Choice& choice) {
     }
   } catch (const std::exception& failure) {
     std::printf("failed t=%.4f %s\n", state.time, failure.what());
+    failed = true;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf(
@@ -113,7 +121,7 @@ int run(const Choice& choice) {
       choice.stiffness, state.time, static_cast<long long>(dynamics.evaluations()), static_cast<long long>(state.step),
       static_cast<long long>(rejected), seconds, error / static_cast<double>(std::max<std::int64_t>(1, state.step)),
       work / static_cast<double>(std::max<std::int64_t>(1, state.step)));
-  return 0;
+  return failed ? 76 : 0;
 }
 
 }  // namespace

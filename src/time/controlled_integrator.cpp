@@ -114,11 +114,12 @@ double ControlledIntegrator::choose_step() const {
 
 void ControlledIntegrator::give_up(const State& state, const StepReport& report, const double dt,
                                    const std::string& fault) const {
-  throw Error(ExitCode::numerical,
-              fmt::format("no acceptable step at t = {:.6g} (step {}): {} attempts, the last with dt = {:.3g}, {} stages "
-                          "and an error of {:.3g} times the tolerance{}{}",
-                          state.time, state.step + 1, report.rejected, dt, report.stages, report.error,
-                          fault.empty() ? "" : "; ", fault));
+  throw Error(
+      ExitCode::numerical,
+      fmt::format("no acceptable step at t = {:.6g} (step {}): {} attempts, the last with dt = {:.3g}, {} stages "
+                  "and an error of {:.3g} times the tolerance{}{}",
+                  state.time, state.step + 1, report.rejected, dt, report.stages, report.error,
+                  fault.empty() ? "" : "; ", fault));
 }
 
 StepReport ControlledIntegrator::take_step(State& state, const double end) {
@@ -165,10 +166,9 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
     ++report.rejected;
     report.rejection = fmt::format("dt = {:.3g}: {}", dt,
                                    !result.failure.empty() ? result.failure
-                                   : !fault.empty()
-                                       ? fault
-                                       : fmt::format("error {:.3g} times the tolerance", result.error));
-    const std::string& reason = result.failure.empty() ? fault : result.failure;
+                                   : !fault.empty()        ? fault
+                                                    : fmt::format("error {:.3g} times the tolerance", result.error));
+    const std::string reason = result.failure + (result.failure.empty() || fault.empty() ? "" : "; ") + fault;
     if (options_.fixed_step > 0.0 || report.rejected > max_rejections || dt < min_step_ratio * options_.max_step)
       give_up(state, report, dt, reason);
     // Equations that were not solved are no blow-up: a cut to less than half does.

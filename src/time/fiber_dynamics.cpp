@@ -34,9 +34,7 @@ double wait_and_look() {
 class Stopwatch {
  public:
   Stopwatch(const std::int64_t evaluation, FiberDynamics::Seconds& seconds)
-      : timed_(evaluation % evaluations_per_timing == 0),
-        seconds_(seconds),
-        start_(timed_ ? wait_and_look() : 0.0) {}
+      : timed_(evaluation % evaluations_per_timing == 0), seconds_(seconds), start_(timed_ ? wait_and_look() : 0.0) {}
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 

@@ -159,8 +159,9 @@ void FiberLinearization::precondition(const ConstVectors& v, const Vectors& resu
 }
 
 std::string FiberLinearization::describe() const {
-  return fmt::format("springs and near mobility of {} sections to either side, banded, factorized anew when it is worth it",
-                     near_sections);
+  return fmt::format(
+      "springs and near mobility of {} sections to either side, banded, factorized anew when it is worth it",
+      near_sections);
 }
 
 }  // namespace skein

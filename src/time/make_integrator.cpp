@@ -29,8 +29,7 @@ Rkc2Options make_options(const SceneConfig& scene, const double length, const do
 
 std::unique_ptr<Integrator> make_controlled(const std::string& method, const Rkc2Options& options, RightHandSide& rhs,
                                             const int n_nodes) {
-  if (method == "rk4")
-    return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
+  if (method == "rk4") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
   if (method == "bs3") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
   if (method == "trbdf2") return std::make_unique<TrBdf2>(rhs, options, n_nodes);
   SKEIN_REQUIRE(method == "rkc2", "unknown integrator '" + method + "'");

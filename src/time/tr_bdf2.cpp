@@ -16,17 +16,17 @@ namespace skein {
 namespace {
 
 constexpr double gamma = 2.0 - std::numbers::sqrt2;
-constexpr double diagonal = 0.5 * gamma;                  // of both stages' equations
+constexpr double diagonal = 0.5 * gamma;                    // of both stages' equations
 constexpr double side_weight = 0.25 * std::numbers::sqrt2;  // of both earlier velocities in the last stage
 
-constexpr int max_iterations = 60;      // of GMRES
+constexpr int max_iterations = 60;  // of GMRES
 constexpr int max_newton_steps = 10;
-constexpr double stage_share = 0.02;    // of the error allowed in a step, for a stage's equation
-constexpr double solver_share = 0.5;     // of that, for a linear system
+constexpr double stage_share = 0.02;      // of the error allowed in a step, for a stage's equation
+constexpr double solver_share = 0.5;      // of that, for a linear system
 constexpr double newton_curvature = 5.0;  // rate of Newton's method over correction / node spacing, measured
-constexpr double detail_share = 1e-3;    // of the node spacing, for a stage's equation
-constexpr double least_error = 0.05;    // over the tolerance
-constexpr double max_scale_ratio = 4.0;  // of the matrix' scale to that of the preconditioner, either way
+constexpr double detail_share = 1e-3;     // of the node spacing, for a stage's equation
+constexpr double least_error = 0.05;      // over the tolerance
+constexpr double max_scale_ratio = 4.0;   // of the matrix' scale to that of the preconditioner, either way
 
 Linearization& get_linearization(RightHandSide& rhs) {
   Linearization* linearization = rhs.linearization();
@@ -94,7 +94,6 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
   const ExecSpace space;
   const double scale = diagonal * dt;
   const double tolerance = stage_tolerance(dt);
-  const double not_finite = std::numeric_limits<double>::quiet_NaN();
   double last_size = 0.0;
   for (int step = 0; step < max_newton_steps; ++step) {
     ++newton_steps_;
@@ -108,15 +107,15 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
     combine<ExecSpace>(space, end_, {1.0, end_}, {1.0, correction_});
     if (!std::isfinite(solved.residual)) {
       // Leave what a search for the node to blame would find.
-      combine<ExecSpace>(space, end_, {1.0, end_}, {not_finite, scratch_});
+      combine<ExecSpace>(space, end_, {1.0, end_}, {1e-300, stage_velocity});
       return "GMRES met numbers that are not finite";
     }
     if (!solved.converged)
       return fmt::format("GMRES stalled after {} iterations at {:.3g} of its tolerance", solved.iterations,
                          solved.residual / (solver_share * tolerance));
     const double size = root_mean_square<ExecSpace>(space, correction_);
-    // What the matrix lacks is as slow as the flow, and it changes over distances like the node spacing: that is how the
-    // error of the first step is guessed.
+    // What the matrix lacks is as slow as the flow, and it changes over distances like the node spacing: that is how
+    // the error of the first step is guessed.
     const double bend = options_.detail_scale > 0.0 ? newton_curvature * size / options_.detail_scale : 0.0;
     const double rate = step == 0 ? std::min(0.5, scale / options_.time_scale + bend) : size / last_size;
     if (size == 0.0 || std::min(rate, 1.0) * size <= tolerance) {
@@ -141,7 +140,10 @@ ControlledIntegrator::Attempt TrBdf2::attempt(const double time, const double dt
   combine<ExecSpace>(space, end_, {1.0, end_}, {0.5 * gamma * gamma * dt * dt, acceleration_});
   result.failure = solve_stage(time + gamma * dt, dt, constant_, middle_velocity_);
   count();
-  if (!result.failure.empty()) return result;
+  if (!result.failure.empty()) {
+    result.error = std::numeric_limits<double>::quiet_NaN();
+    return result;
+  }
 
   // From here on, the curve through both velocities known.
   const double curve = 0.5 * dt / gamma;
@@ -151,10 +153,14 @@ ControlledIntegrator::Attempt TrBdf2::attempt(const double time, const double dt
   combine<ExecSpace>(space, constant_, {1.0, constant_}, {side_weight * dt, middle_velocity_});
   result.failure = solve_stage(time + dt, dt, constant_, end_velocity_);
   count();
-  if (!result.failure.empty()) return result;
+  if (!result.failure.empty()) {
+    result.error = std::numeric_limits<double>::quiet_NaN();
+    return result;
+  }
 
   // The difference to the third-order formula with the same velocities, freed of stiff modes by the preconditioner.
-  combine<ExecSpace>(space, scratch_, {(4.0 * side_weight - 1.0) / 3.0 * dt, start_velocity_}, {-dt / 3.0, middle_velocity_});
+  combine<ExecSpace>(space, scratch_, {(4.0 * side_weight - 1.0) / 3.0 * dt, start_velocity_},
+                     {-dt / 3.0, middle_velocity_});
   combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {2.0 / 3.0 * diagonal * dt, end_velocity_});
   linearization_.precondition(scratch_, scratch_);
   // Not below what the stages' equations were left with, or the controller would take luck for a trend.

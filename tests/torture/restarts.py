@@ -13,7 +13,7 @@ def torture(program, counts, seed=2):
     unbroken = {}
     for name, overrides in INTEGRATORS.items():
         # A checkpoint at every step, so that every step is one to go on from.
-        end = "time.end=0.008" if name == "euler" else "time.end=0.4"
+        end = "time.end=0.008" if name in ("euler", "bs3") else "time.end=0.4"
         overrides = [*overrides, end, "checkpoint.simulated_interval=1e-7"]
         folder = program.fresh(f"unbroken {name}")
         result = program.run(folder, overrides)

@@ -37,7 +37,7 @@ class ControlledIntegrator : public Integrator {
   ControlledIntegrator(RightHandSide& rhs, const ControlOptions& options, std::string name, double order, int n_nodes);
 
   struct Attempt {
-    double error = 0.0;   ///< over tolerance; NaN where the step went wild
+    double error = 0.0;  ///< over tolerance; NaN where the step went wild
     int stages = 1;
     std::string failure;  ///< why there is no result; empty where there is one
   };

@@ -20,7 +20,8 @@ struct RungeKuttaTableau {
 RungeKuttaTableau make_bogacki_shampine();
 
 /// The classical method of fourth order. Its error estimate is the difference to the third-order result that takes the
-/// velocity at the end instead of the last stage's: dt (k4 - F_(n+1)) / 6.
+/// velocity at the end instead of the last stage's: dt (k4 - F_(n+1)) / 6. It is blind to
+/// what changes a velocity with time alone, wherever nodes are.
 RungeKuttaTableau make_classical_runge_kutta();
 
 /// Explicit references. Stiff springs bind their steps to about 2.5 over the spectral radius.

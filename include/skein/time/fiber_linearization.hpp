@@ -12,9 +12,9 @@ namespace skein {
 
 class SectionBand;
 
-/// A = M(x) dF/dx of fibers. Its preconditioner keeps the mobility between sections that are near each other on a fiber,
-/// tapered, as a banded matrix factorized on the host; with every section's frame it turns, so that it serves while the
-/// fiber rotates and bends on.
+/// A = M(x) dF/dx of fibers. Its preconditioner keeps the mobility between sections that are near each other on a
+/// fiber, tapered, as a banded matrix factorized on the host; with every section's frame it turns, so that it serves
+/// while the fiber rotates and bends on.
 class FiberLinearization final : public Linearization {
  public:
   /// Overwrites result with M(position) dF/dx(position) displacement.

@@ -28,7 +28,7 @@ class Gmres {
   void add_combination(const Vectors& x, int n_columns);
 
   int max_iterations_;
-  std::vector<Vectors> basis_;  ///< [max_iterations + 1], made when they are needed
+  std::vector<Vectors> basis_;               ///< [max_iterations + 1], made when they are needed
   std::vector<std::vector<double>> column_;  ///< of the triangular matrix
   std::vector<double> cosine_, sine_, right_;
   int n_nodes_;

@@ -4,8 +4,8 @@
 
 namespace skein {
 
-/// Chooses the next step from estimated errors: 1 is just tolerable. Predictive controller of Watts and Gustafsson as in
-/// Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88, 315 (1998), for errors per unit time.
+/// Chooses the next step from estimated errors: 1 is just tolerable. Predictive controller of Watts and Gustafsson as
+/// in Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88, 315 (1998), for errors per unit time.
 class StepControl {
  public:
   /// @param order  with which an error falls with the step: 2 for errors per unit time of a method of second order

@@ -10,7 +10,8 @@ namespace skein {
 /// extrapolation so good that one linear system each is mostly all they need; its matrix is that of the extrapolated
 /// positions. With a matrix of the step's start (Rosenbrock methods, W-methods), a fiber that turns by a fifth of a
 /// radian in a step sees its stretched springs pull in directions that the matrix holds for soft, and flies apart.
-/// Sources: Bank et al., IEEE Trans. Electron Devices 32, 1992 (1985); Hosea, Shampine, Appl. Numer. Math. 20, 21 (1996).
+/// Sources: Bank et al., IEEE Trans. Electron Devices 32, 1992 (1985); Hosea, Shampine, Appl. Numer. Math. 20, 21
+/// (1996).
 class TrBdf2 final : public ControlledIntegrator {
  public:
   /// @throws Error(internal) if the right-hand side offers no linearization
@@ -28,10 +29,10 @@ class TrBdf2 final : public ControlledIntegrator {
 
   /// What the preconditioner was made of, and what it has cost since.
   struct Preconditioner {
-    double scale = 0.0;         ///< of the matrix at which it was made, time; 0: there is none
+    double scale = 0.0;              ///< of the matrix at which it was made, time; 0: there is none
     double least_iterations = -1.0;  ///< of a step since; below 0 before the first
-    double excess = 0.0;        ///< iterations since, beyond the least in each step
-    std::int64_t number = 0;    ///< of factorizations
+    double excess = 0.0;             ///< iterations since, beyond the least in each step
+    std::int64_t number = 0;         ///< of factorizations
   };
   void update_preconditioner(double scale);
   void factorize(double scale);
@@ -47,7 +48,7 @@ class TrBdf2 final : public ControlledIntegrator {
   Gmres gmres_;
   Preconditioner preconditioner_, kept_;
   Vectors factorized_position_, kept_position_;
-  std::int64_t number_made_ = -1;  ///< of the factors in the linearization
+  std::int64_t number_made_ = -1;          ///< of the factors in the linearization
   int iterations_ = 0, newton_steps_ = 0;  ///< of the attempt in work
 
   // The rate of change of the velocity over the last accepted step extrapolates the next. After an attempt it is in
