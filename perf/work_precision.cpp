@@ -88,13 +88,17 @@ int run(const Choice& choice) {
   std::ofstream out;
   if (!choice.output.empty()) out.open(choice.output, std::ios::binary);
   std::int64_t rejected = 0, samples = 1;
-  double error = 0.0, work = 0.0;
+  double error = 0.0, work = 0.0, last_dt = 1.0;
   bool failed = false;
+  const Vectors before("before", state.position.extent(0));
+  double speed = 0.0;  // of nodes over the last step, shear rate times length: large where steps only alternate
   const auto start = std::chrono::steady_clock::now();
   try {
     while (state.time < choice.end) {
+      Kokkos::deep_copy(before, state.position);
       const StepReport report = integrator->advance(state, choice.end);
       rejected += report.rejected;
+      last_dt = report.dt;
       error += report.error;
       work += report.stages;
       if (choice.verbose)
@@ -113,14 +117,17 @@ int run(const Choice& choice) {
     std::printf("failed t=%.4f %s\n", state.time, failure.what());
     failed = true;
   }
+  const auto last = to_host(ConstVectors(state.position)), first = to_host(ConstVectors(before));
+  for (std::size_t i = 0; i < last.size(); ++i) speed = std::max(speed, norm(last[i] - first[i]));
+  speed /= last_dt * scene.flow.rate * fibers[0].length();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf(
       "method=%s tolerance=%g nodes=%d sections=%d length=%.6g stiffness=%g t=%.6g evaluations=%lld steps=%lld "
-      "rejected=%lld seconds=%.3f mean_error=%.3g stages_per_step=%.3g\n",
+      "rejected=%lld seconds=%.3f mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
       choice.method.c_str(), choice.tolerance, choice.nodes, fibers[0].config.sections, fibers[0].length(),
       choice.stiffness, state.time, static_cast<long long>(dynamics.evaluations()), static_cast<long long>(state.step),
       static_cast<long long>(rejected), seconds, error / static_cast<double>(std::max<std::int64_t>(1, state.step)),
-      work / static_cast<double>(std::max<std::int64_t>(1, state.step)));
+      work / static_cast<double>(std::max<std::int64_t>(1, state.step)), speed);
   return failed ? 76 : 0;
 }
 
