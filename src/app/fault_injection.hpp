@@ -30,6 +30,7 @@ class FaultyDynamics final : public RightHandSide {
   void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) override;
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  Linearization* linearization() override { return dynamics_.linearization(); }
 
  private:
   RightHandSide& dynamics_;

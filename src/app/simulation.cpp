@@ -231,7 +231,8 @@ void Simulation::count(const StepReport& report) {
   }
   if (report.rejected == 0) return;
   counters_.rejected += report.rejected;
-  events_.write("rejected", {{"time", state_.time}, {"attempts", std::int64_t{report.rejected}}, {"dt", report.dt}});
+  events_.write("rejected", {{"time", state_.time}, {"attempts", std::int64_t{report.rejected}}, {"dt", report.dt},
+                             {"reason", report.rejection}});
 }
 
 void Simulation::save_last_good_state(const Error& error) {

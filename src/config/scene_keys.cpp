@@ -177,13 +177,17 @@ void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics
 void visit_time(KeyVisitor& visitor, TimeConfig& time) {
   visitor.begin_table({"time", false, "How time advances."});
   visitor.choice({"method", "", {}, "time integration"},
-                 {{"rkc2", "stabilized Runge-Kutta-Chebyshev of second order, with error control"},
+                 {{"auto", "rkc2 or trbdf2, whichever is expected to do with less work; the log says why"},
+                  {"rkc2", "stabilized Runge-Kutta-Chebyshev of second order, with error control"},
+                  {"trbdf2", "implicit of second order, with GMRES and error control: for very stiff springs"},
+                  {"rk4", "explicit Runge-Kutta of fourth order, with error control; bound by stability"},
+                  {"bs3", "explicit Runge-Kutta of third order by Bogacki and Shampine, with error control; likewise"},
                   {"euler", "forward Euler with a fixed step"}},
                  time.method);
   visitor.number({"end", "time", zero_or_more(), "time at which the run ends; it starts at 0"}, time.end);
-  visitor.number({"step", "time", zero_or_more(), "fixed step; 0 leaves it to the error control of rkc2"}, time.step);
+  visitor.number({"step", "time", zero_or_more(), "fixed step; 0 leaves it to the error control; euler needs one"}, time.step);
   visitor.number({"tolerance", "", between(1e-12, 1.0),
-                  "error of rkc2 allowed per unit of time, as a fraction of the longest fiber's length"},
+                  "error allowed per unit of time, as a fraction of the longest fiber's length"},
                  time.tolerance);
   visitor.number({"max_step", "time", above_zero(), "largest step"}, time.max_step);
   visitor.end_table();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernels/spring_force.hpp"
+#include "kernels/spring_tangent.hpp"
 
 namespace skein {
 namespace {
@@ -85,6 +86,11 @@ SpringForces& SpringForces::operator=(SpringForces&&) noexcept = default;
 
 void SpringForces::compute_forces(const ConstVectors& position, const Vectors& force) const {
   compute_spring_force<ExecSpace>(ExecSpace(), *springs_, position, force);
+}
+
+void SpringForces::compute_force_changes(const ConstVectors& position, const ConstVectors& displacement,
+                                         const Vectors& change) const {
+  compute_spring_force_change<ExecSpace>(ExecSpace(), *springs_, position, displacement, change);
 }
 
 std::vector<double> SpringForces::compute_energies(const ConstVectors& position) const {

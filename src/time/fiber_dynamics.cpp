@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <numbers>
 #include <utility>
 
 namespace skein {
@@ -24,11 +25,34 @@ std::string describe_fault(const ConstVectors& position, const Fiber& fiber, con
 
 constexpr int evaluations_per_timing = on_host<ExecSpace> ? 1 : 16;
 
-// Seconds since `start`, once the device is idle.
-double wait_and_look(const double start) {
+double wait_and_look() {
   ExecSpace().fence();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count() - start;
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// Times the two parts of an evaluation, once the device is idle; on a device only one evaluation in many.
+class Stopwatch {
+ public:
+  Stopwatch(const std::int64_t evaluation, FiberDynamics::Seconds& seconds)
+      : timed_(evaluation % evaluations_per_timing == 0), seconds_(seconds), start_(timed_ ? wait_and_look() : 0.0) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+  void begin_fluid() {
+    if (!timed_) return;
+    fluid_start_ = wait_and_look();
+    seconds_.springs_and_flow += evaluations_per_timing * (fluid_start_ - start_);
+  }
+  ~Stopwatch() {
+    if (timed_ && fluid_start_ > 0.0) seconds_.fluid += evaluations_per_timing * (wait_and_look() - fluid_start_);
+  }
+
+ private:
+  bool timed_;
+  FiberDynamics::Seconds& seconds_;
+  double start_;
+  double fluid_start_ = 0.0;
+};
 
 }  // namespace
 
@@ -42,17 +66,41 @@ FiberDynamics::FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<S
       force_("skein::FiberDynamics::force", static_cast<std::size_t>(count_nodes(fibers))) {}
 
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
-  const bool timed = evaluations_ % evaluations_per_timing == 0;
-  ++evaluations_;
-  const double start = timed ? wait_and_look(0.0) : 0.0;
+  Stopwatch stopwatch(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
   flow_->add_velocity(time, position, velocity);
   springs_->compute_forces(position, force_);
-  const double springs_and_flow = timed ? wait_and_look(start) : 0.0;
+  stopwatch.begin_fluid();
   mobility_->add_velocity({position, force_, blob_}, position, velocity);
-  if (!timed) return;
-  seconds_.springs_and_flow += evaluations_per_timing * springs_and_flow;
-  seconds_.fluid += evaluations_per_timing * (wait_and_look(start) - springs_and_flow);
+}
+
+void FiberDynamics::multiply(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result) {
+  Stopwatch stopwatch(evaluations_++, seconds_);
+  Kokkos::deep_copy(ExecSpace(), result, 0.0);
+  springs_->compute_force_changes(position, displacement, force_);
+  stopwatch.begin_fluid();
+  mobility_->add_velocity({position, force_, blob_}, position, result);
+}
+
+// One source and its own velocity, f / (4 pi viscosity blob), tell the viscosity of any mobility.
+double FiberDynamics::measure_viscosity() {
+  const Vectors position = to_device("skein::FiberDynamics::one", std::vector<Vec3>{Vec3{}});
+  const Vectors force = to_device("skein::FiberDynamics::one", std::vector<Vec3>{Vec3{1.0, 0.0, 0.0}});
+  const Vectors velocity("skein::FiberDynamics::one", 1);
+  const double blob = fibers_.front().config.blob;
+  mobility_->add_velocity({position, force, to_device("skein::FiberDynamics::one", std::vector<double>{blob})},
+                          position, velocity);
+  return 1.0 / (4.0 * std::numbers::pi * blob * to_host(ConstVectors(velocity)).front().x);
+}
+
+Linearization* FiberDynamics::linearization() {
+  if (linearization_ == nullptr)
+    linearization_ = std::make_unique<FiberLinearization>(
+        fibers_, measure_viscosity(),
+        [this](const ConstVectors& position, const ConstVectors& displacement, const Vectors& result) {
+          multiply(position, displacement, result);
+        });
+  return linearization_.get();
 }
 
 std::string FiberDynamics::find_fault(const ConstVectors& position) const {

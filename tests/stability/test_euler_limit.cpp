@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace skein::test {
 namespace {
 
@@ -21,6 +23,18 @@ TEST(SpectralRadius, IsElevenThousandAtEveryLength) {
     const double radius =
         power_iteration.estimate(*fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
     EXPECT_NEAR(radius, 1.1e4, 0.03 * 1.1e4) << sections << " sections";
+  }
+}
+
+// 1.81e-4, and 1.53e-4 with half the blob, of an independent program.
+TEST(SpectralRadius, GivesEulersLimit) {
+  for (const auto& [blob_ratio, limit] : {std::pair{1.0, 1.81e-4}, std::pair{0.5, 1.53e-4}}) {
+    PaperFiber fiber(80, blob_ratio);
+    const Vectors velocity("velocity", fiber.state.position.extent(0));
+    fiber.dynamics->compute_velocity(0.0, fiber.state.position, velocity);
+    SpectralRadius power_iteration(fiber.n_nodes(), 1e-8, 1);
+    const double radius = power_iteration.estimate(*fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
+    EXPECT_NEAR(2.0 / radius, limit, 0.03 * limit) << "blob times " << blob_ratio;
   }
 }
 

@@ -17,9 +17,10 @@ namespace skein::test {
 
 /// One of the paper's fibers along x in its shear flow, ready to run.
 struct PaperFiber {
-  explicit PaperFiber(const int sections) {
+  explicit PaperFiber(const int sections, const double blob_ratio = 1.0) {
     FiberConfig fiber;
     fiber.sections = sections;
+    fiber.blob *= blob_ratio;
     scene.fibers = {fiber};
     fibers = make_fibers(scene.fibers);
     dynamics = std::make_unique<FiberDynamics>(

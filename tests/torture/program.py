@@ -30,6 +30,8 @@ simulated_interval = 0.2
 INTEGRATORS = {
     "rkc2": [],
     "rkc2, fixed step": ["time.step=0.013"],
+    "trbdf2": ["time.method=trbdf2"],
+    "bs3": ["time.method=bs3", "time.max_step=4e-4", "time.end=0.05", "output.frame_interval=0.004"],
     "euler": ["time.method=euler", "time.step=2e-4", "time.max_step=1e-3", "time.end=0.05",
               "output.frame_interval=0.004"],
     # Leaves so small that these few nodes have a far field.

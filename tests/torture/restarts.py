@@ -15,7 +15,7 @@ def torture(program, counts, seed=2):
     scenes["rkc2, fmm, three fibers"] = program.three_fibers, INTEGRATORS["rkc2, fmm"]
     for name, (scene, overrides) in scenes.items():
         # A checkpoint at every step, so that every step is one to go on from.
-        end = "time.end=0.008" if name == "euler" else "time.end=0.4"
+        end = "time.end=0.008" if name in ("euler", "bs3") else "time.end=0.4"
         overrides = [*overrides, end, "checkpoint.simulated_interval=1e-7"]
         folder = program.fresh(f"unbroken {name}")
         result = program.run(folder, overrides, scene=scene)

@@ -152,6 +152,19 @@ TEST(Restart, OfTheFastMultipoleMethodIsExactAtEveryStep) {
   }
 }
 
+TEST(Restart, OfEveryOtherMethodIsExactAtEveryStep) {
+  for (const int n_fibers : {1, 2})
+    for (const char* method : {"rk4", "bs3", "trbdf2", "auto"})
+      expect_exact_restarts(make_scene(n_fibers,
+                                       [&](TimeConfig& time) {
+                                         time.method = method;
+                                         const bool is_explicit = time.method == "rk4" || time.method == "bs3";
+                                         time.end = is_explicit ? 0.03 : 0.8;
+                                         time.max_step = is_explicit ? 4e-4 : 0.02;
+                                       }),
+                            30);
+}
+
 TEST(Restart, WithAnotherNumberOfNodesIsRefused) {
   FiberRun one(make_scene(1, [](TimeConfig&) {})), two(make_scene(2, [](TimeConfig&) {}));
   EXPECT_EQ(code_of([&] { two.restore(one.save()); }), ExitCode::damaged_data);
@@ -168,6 +181,7 @@ class InterruptedDynamics final : public RightHandSide {
   }
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  Linearization* linearization() override { return dynamics_.linearization(); }
   int n_left = -1;  ///< evaluations until it happens; none for a negative number
 
  private:
@@ -177,11 +191,13 @@ class InterruptedDynamics final : public RightHandSide {
 TEST(Restart, OfAStepThatWasGivenUpIsExact) {
   const SceneConfig scenes[] = {
       make_scene(1, [](TimeConfig& time) { time.end = 1.0, time.max_step = 0.02; }),
+      make_scene(1, [](TimeConfig& time) { time.method = "trbdf2", time.end = 1.0, time.max_step = 0.02; }),
+      make_scene(1, [](TimeConfig& time) { time.method = "bs3", time.end = 0.1, time.max_step = 0.001; }),
       make_scene(1, [](TimeConfig& time) { time.method = "euler", time.step = 1e-4, time.end = 0.01; })};
   FmmOptions options = make_options_that_miss();
   options.check_every = 41;
   const std::pair<const SceneConfig&, const FmmOptions*> cases[] = {
-      {scenes[0], nullptr}, {scenes[1], nullptr}, {scenes[0], &options}};
+      {scenes[0], nullptr}, {scenes[1], nullptr}, {scenes[2], nullptr}, {scenes[3], nullptr}, {scenes[0], &options}};
   for (const auto& [scene, fmm] : cases) {
     FiberRun unbroken(scene, fmm), broken(scene, fmm);
     InterruptedDynamics dynamics(broken.dynamics);

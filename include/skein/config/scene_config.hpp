@@ -90,10 +90,10 @@ struct HydrodynamicsConfig {
 };
 
 struct TimeConfig {
-  std::string method = "rkc2";  ///< "rkc2", "euler"
+  std::string method = "rkc2";  ///< "auto", "rkc2", "trbdf2", "rk4", "bs3", "euler"
   double end = 12.0;            ///< time
-  double step = 0.0;            ///< time; 0 lets the error control choose (rkc2); euler needs one
-  double tolerance = 1e-4;      ///< rkc2: error per unit time, as a fraction of the longest fiber's length
+  double step = 0.0;            ///< time; 0 lets the error control choose; euler needs one
+  double tolerance = 1e-4;      ///< error per unit time, as a fraction of the longest fiber's length
   double max_step = 0.1;        ///< time
 };
 

@@ -27,6 +27,11 @@ class SpringForces {
   /// @throws Error(internal) if the extents are not those of the fibers. Returns before a device has finished.
   void compute_forces(const ConstVectors& position, const Vectors& force) const;
 
+  /// Overwrites change with the first-order change of the forces when nodes move by `displacement`.
+  /// @param position, displacement, change  [n_nodes, 3], length, length and force
+  void compute_force_changes(const ConstVectors& position, const ConstVectors& displacement,
+                             const Vectors& change) const;
+
   /// Elastic energy of each fiber, force * length. @returns [n_fibers]
   std::vector<double> compute_energies(const ConstVectors& position) const;
 

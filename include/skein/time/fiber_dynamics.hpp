@@ -4,6 +4,7 @@
 #include <skein/model/background_flow.hpp>
 #include <skein/model/spring_forces.hpp>
 #include <skein/scene/fiber.hpp>
+#include <skein/time/fiber_linearization.hpp>
 #include <skein/time/right_hand_side.hpp>
 
 #include <memory>
@@ -31,6 +32,9 @@ class FiberDynamics final : public RightHandSide {
   void visit_memory(MemoryVisitor& visitor) { mobility_->visit_memory(visitor); }
   std::vector<std::string> take_messages() { return mobility_->take_messages(); }
 
+  /// M(position) dF/dx: neither the flow's gradient nor the change of M, which are no faster than the shear.
+  Linearization* linearization() override;
+
   /// Wall time spent in evaluations, by parts, seconds. On a device, where waiting costs, an estimate from one in
   /// sixteen of them.
   struct Seconds {
@@ -44,6 +48,9 @@ class FiberDynamics final : public RightHandSide {
   const Mobility& mobility() const { return *mobility_; }
 
  private:
+  double measure_viscosity();
+  void multiply(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result);
+
   std::vector<Fiber> fibers_;
   std::unique_ptr<SpringForces> springs_;
   std::unique_ptr<BackgroundFlow> flow_;
@@ -52,6 +59,7 @@ class FiberDynamics final : public RightHandSide {
   Vectors force_;
   std::int64_t evaluations_ = 0;
   Seconds seconds_;
+  std::unique_ptr<FiberLinearization> linearization_;
 };
 
 }  // namespace skein

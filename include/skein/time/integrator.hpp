@@ -21,7 +21,8 @@ struct StepReport {
   double error = 0.0;            ///< estimated local error over tolerance; 0 where the method has no estimate
   double spectral_radius = 0.0;  ///< estimate in use, 1 / time; 0 where none is made
   int stages = 1;
-  int rejected = 0;  ///< attempts thrown away before this step
+  int rejected = 0;       ///< attempts thrown away before this step
+  std::string rejection;  ///< why the last of them was
 };
 
 /// Advances a State by one step of its own choice.

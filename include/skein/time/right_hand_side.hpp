@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/core/types.hpp>
+#include <skein/time/linearization.hpp>
 
 #include <cstdint>
 #include <string>
@@ -20,6 +21,9 @@ class RightHandSide {
   virtual std::string find_fault(const ConstVectors& position) const = 0;
 
   virtual std::int64_t evaluations() const = 0;
+
+  /// Its stiff part; null where it has none to offer. Belongs to this object.
+  virtual Linearization* linearization() { return nullptr; }
 };
 
 }  // namespace skein

@@ -4,11 +4,13 @@
 
 namespace skein {
 
-/// Chooses the next step from estimated errors: 1 is just tolerable. Predictive controller of Watts and Gustafsson as in
-/// Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88, 315 (1998), for errors per unit time of a method of second
-/// order (so that an error goes as the square of the step).
+/// Chooses the next step from estimated errors: 1 is just tolerable. Predictive controller of Watts and Gustafsson as
+/// in Sommeijer, Shampine, Verwer, J. Comput. Appl. Math. 88, 315 (1998), for errors per unit time.
 class StepControl {
  public:
+  /// @param order  with which an error falls with the step: 2 for errors per unit time of a method of second order
+  explicit StepControl(const double order = 2.0) : order_(order) {}
+
   static constexpr double safety = 0.8;
   static constexpr double max_growth = 5.0;
   static constexpr double max_cut = 0.1;
@@ -29,6 +31,7 @@ class StepControl {
   void visit_memory(MemoryVisitor& visitor);
 
  private:
+  double order_;
   Memory memory_;
 };
 

@@ -1,0 +1,140 @@
+// One run of a shear orbit by one method: what it cost, and where its nodes went, for perf/plot_work_precision.py and
+// perf/stability_atlas.py. Arguments are key=value; fewer nodes on a section keep the bending stiffness.
+
+#include <skein/core/runtime.hpp>
+#include <skein/hydro/direct_mobility.hpp>
+#include <skein/scene/calibration.hpp>
+#include <skein/time/fiber_dynamics.hpp>
+#include <skein/time/make_integrator.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "perf/harness.hpp"
+
+namespace skein::perf {
+namespace {
+
+struct Choice {
+  std::string method = "rkc2", output;
+  double tolerance = 1e-4, step = 0.0, max_step = 0.0, length = 0.139, end = 6.0, stiffness = 1.0, blob = 1.0,
+         sample = 0.25;
+  int nodes = 6, sections = 0;
+  bool verbose = false;
+};
+
+Choice read_choice(const int argc, char** argv) {
+  Choice choice;
+  const std::map<std::string, double*> numbers = {
+      {"tolerance", &choice.tolerance}, {"step", &choice.step},    {"max_step", &choice.max_step},
+      {"length", &choice.length},       {"end", &choice.end},      {"stiffness", &choice.stiffness},
+      {"blob", &choice.blob},           {"sample", &choice.sample}};
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const auto equals = argument.find('=');
+    const std::string key = argument.substr(0, equals), value = argument.substr(equals + 1);
+    if (const auto number = numbers.find(key); number != numbers.end())
+      *number->second = std::atof(value.c_str());
+    else if (key == "method")
+      choice.method = value;
+    else if (key == "output")
+      choice.output = value;
+    else if (key == "sections")
+      choice.sections = std::atoi(value.c_str());
+    else if (key == "nodes")
+      choice.nodes = std::atoi(value.c_str());
+    else if (key == "verbose")
+      choice.verbose = value != "0";
+    else
+      std::fprintf(stderr, "unknown argument %s\n", argument.c_str()), std::exit(64);
+  }
+  return choice;
+}
+
+/// A fiber of the length with fewer nodes on a section, and the bending stiffness of the paper's.
+SceneConfig make_scene(const Choice& choice) {
+  SceneConfig scene;
+  FiberConfig paper, fiber;
+  fiber.nodes_per_section = choice.nodes;
+  fiber.sections =
+      std::max(3, static_cast<int>(std::lround(choice.length / (2.0 * fiber.radius * std::sin(M_PI / choice.nodes)))));
+  if (choice.sections > 0) fiber.sections = choice.sections;
+  const double wanted = measure_beam_stiffness(make_fibers({paper}).front()).infinite_bending;
+  const double found = measure_beam_stiffness(make_fibers({fiber}).front()).infinite_bending;
+  fiber.spring_stiffness *= choice.stiffness * wanted / found;
+  fiber.blob *= choice.blob;
+  scene.fibers = {fiber};
+  scene.time.method = choice.method;
+  scene.time.tolerance = choice.tolerance;
+  scene.time.step = choice.step;
+  if (choice.max_step > 0.0) scene.time.max_step = choice.max_step;
+  scene.time.end = choice.end;
+  return scene;
+}
+
+int run(const Choice& choice) {
+  const SceneConfig scene = make_scene(choice);
+  const auto fibers = make_fibers(scene.fibers);
+  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
+                         std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double));
+  const auto integrator = make_integrator(scene, fibers, dynamics);
+  State state{0.0, 0, to_device("position", make_surface_nodes(fibers))};
+  const Vectors sample("sample", state.position.extent(0));
+  std::ofstream out;
+  if (!choice.output.empty()) out.open(choice.output, std::ios::binary);
+  std::int64_t rejected = 0, samples = 1;
+  double error = 0.0, work = 0.0, last_dt = 1.0;
+  bool failed = false;
+  const Vectors before("before", state.position.extent(0));
+  double speed = 0.0;  // of nodes over the last step, shear rate times length: large where steps only alternate
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    while (state.time < choice.end) {
+      Kokkos::deep_copy(before, state.position);
+      const StepReport report = integrator->advance(state, choice.end);
+      rejected += report.rejected;
+      last_dt = report.dt;
+      error += report.error;
+      work += report.stages;
+      if (choice.verbose)
+        std::printf("step %lld t %.4f dt %.3e error %.3g stages %d radius %.4g rejected %d %s\n",
+                    static_cast<long long>(state.step), state.time, report.dt, report.error, report.stages,
+                    report.spectral_radius, report.rejected, report.rejection.c_str());
+      for (; static_cast<double>(samples) * choice.sample <= state.time * (1.0 + 1e-14); ++samples) {
+        integrator->interpolate(std::min(state.time, static_cast<double>(samples) * choice.sample), sample);
+        for (const Vec3 x : to_host(ConstVectors(sample))) {
+          const double values[3] = {x.x, x.y, x.z};
+          out.write(reinterpret_cast<const char*>(values), sizeof values);
+        }
+      }
+    }
+  } catch (const std::exception& failure) {
+    std::printf("failed t=%.4f %s\n", state.time, failure.what());
+    failed = true;
+  }
+  const auto last = to_host(ConstVectors(state.position)), first = to_host(ConstVectors(before));
+  for (std::size_t i = 0; i < last.size(); ++i) speed = std::max(speed, norm(last[i] - first[i]));
+  speed /= last_dt * make_background_flow(scene.flows)->typical_rate() * fibers[0].length();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::printf(
+      "method=%s tolerance=%g nodes=%d sections=%d length=%.6g stiffness=%g t=%.6g evaluations=%lld steps=%lld "
+      "rejected=%lld seconds=%.3f mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
+      choice.method.c_str(), choice.tolerance, choice.nodes, fibers[0].config.sections, fibers[0].length(),
+      choice.stiffness, state.time, static_cast<long long>(dynamics.evaluations()), static_cast<long long>(state.step),
+      static_cast<long long>(rejected), seconds, error / static_cast<double>(std::max<std::int64_t>(1, state.step)),
+      work / static_cast<double>(std::max<std::int64_t>(1, state.step)), speed);
+  return failed ? 76 : 0;
+}
+
+}  // namespace
+}  // namespace skein::perf
+
+int main(int argc, char** argv) {
+  skein::Runtime runtime;
+  return skein::perf::run(skein::perf::read_choice(argc, argv));
+}

@@ -1,0 +1,201 @@
+// What every method with error control promises, against equations whose solutions are known.
+
+#include <gtest/gtest.h>
+
+#include <skein/core/error.hpp>
+#include <skein/time/explicit_runge_kutta.hpp>
+#include <skein/time/tr_bdf2.hpp>
+
+#include "tests/unit/decaying_right_hand_side.hpp"
+#include "tests/unit/error_code.hpp"
+
+namespace skein {
+namespace {
+
+struct Method {
+  const char* name;
+  double order;
+  std::unique_ptr<Integrator> (*make)(RightHandSide&, const Rkc2Options&);
+};
+
+const Method methods[] = {
+    {"rk4", 4.0,
+     [](RightHandSide& rhs, const Rkc2Options& options) -> std::unique_ptr<Integrator> {
+       return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
+     }},
+    {"bs3", 3.0,
+     [](RightHandSide& rhs, const Rkc2Options& options) -> std::unique_ptr<Integrator> {
+       return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
+     }},
+    {"rkc2", 2.0,
+     [](RightHandSide& rhs, const Rkc2Options& options) -> std::unique_ptr<Integrator> {
+       return std::make_unique<Rkc2>(rhs, options, n_nodes);
+     }},
+    {"trbdf2", 2.0, [](RightHandSide& rhs, const Rkc2Options& options) -> std::unique_ptr<Integrator> {
+       return std::make_unique<TrBdf2>(rhs, options, n_nodes);
+     }}};
+
+class Controlled : public ::testing::TestWithParam<Method> {};
+INSTANTIATE_TEST_SUITE_P(, Controlled, ::testing::ValuesIn(methods),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+struct Case {
+  const char* name;
+  Problem problem;
+  std::vector<double> rate;
+};
+
+std::vector<Case> make_cases() {
+  return {{"slow", make_slow(), {0.5, 0.9, 1.3, 1.7}},
+          {"nonlinear", make_nonlinear(), {0.0, 0.0, 0.0, 0.0}},
+          {"stiff node at rest", make_stiff_at_rest(), {0.5, 0.9, 1.3, 3000.0}}};
+}
+
+double error_at_fixed_step(const Method& method, const Case& one, const double dt, const double end) {
+  DecayingRightHandSide rhs(one.problem.velocity, one.rate);
+  Rkc2Options options = make_options();
+  options.fixed_step = dt;
+  options.tolerance = 1e-13;  // of the linear systems
+  const auto integrator = method.make(rhs, options);
+  State state = make_state(one.problem);
+  while (state.time < end) integrator->advance(state, end);
+  return distance(to_host(ConstVectors(state.position)), one.problem.solution_at(end));
+}
+
+TEST_P(Controlled, HasItsOrder) {
+  const Method& method = GetParam();
+  for (const Case& one : make_cases()) {
+    const bool is_bound = method.order > 2.0 && one.rate[3] > 1e3;  // by stability, to 2.5 / 3000
+    if (is_bound) continue;
+    const double end = start_time + 1.0;
+    const double coarse = error_at_fixed_step(method, one, 0.02, end);
+    const double fine = error_at_fixed_step(method, one, 0.01, end);
+    EXPECT_NEAR(std::log2(coarse / fine), method.order, 0.2) << one.name << ": " << coarse << ", " << fine;
+  }
+}
+
+struct Outcome {
+  double error = 0.0;
+  int n_steps = 0, n_rejected = 0;
+  std::string rejection;
+};
+
+Outcome run_adaptively(const Method& method, const Case& one, const double tolerance, const double end) {
+  DecayingRightHandSide rhs(one.problem.velocity, one.rate);
+  Rkc2Options options = make_options();
+  options.tolerance = tolerance;
+  const auto integrator = method.make(rhs, options);
+  State state = make_state(one.problem);
+  Outcome outcome;
+  while (state.time < end) {
+    const StepReport report = integrator->advance(state, end);
+    EXPECT_LE(report.error, 1.0);
+    EXPECT_EQ(report.rejected > 0, !report.rejection.empty());
+    outcome.n_rejected += report.rejected;
+    if (report.rejected > 0) outcome.rejection = report.rejection;
+    if (++outcome.n_steps > 50000) break;
+  }
+  outcome.error = distance(to_host(ConstVectors(state.position)), one.problem.solution_at(end));
+  return outcome;
+}
+
+TEST_P(Controlled, MeetsItsTolerance) {
+  const double duration = 3.0;
+  for (const Case& one : make_cases()) {
+    const Outcome coarse = run_adaptively(GetParam(), one, 1e-3, start_time + duration);
+    const Outcome fine = run_adaptively(GetParam(), one, 1e-5, start_time + duration);
+    EXPECT_LT(coarse.error, 10.0 * 1e-3 * 0.7 * duration) << one.name;
+    EXPECT_LT(fine.error, 10.0 * 1e-5 * 0.7 * duration) << one.name;
+    EXPECT_GT(fine.n_steps, coarse.n_steps) << one.name;
+  }
+}
+
+// Nodes that drift into a region from which they are thrown out: no step of the size before it can follow.
+TEST_P(Controlled, RejectsAndSaysWhy) {
+  const double kick = start_time + 1.03, growth = 40.0, wall = 0.1 * kick;
+  const Case one{
+      "kick",
+      {[=](double, int, const Vec3 x) {
+         return Vec3{0.1 + growth * std::max(0.0, x.x - wall), 0.0, 0.0};
+       },
+       [=](const double t, int) {
+         return Vec3{t < kick ? 0.1 * t : wall + 0.1 / growth * (std::exp(growth * (t - kick)) - 1.0), 0.0, 0.0};
+       }},
+      {0.0, 0.0, 0.0, 0.0}};
+  const Outcome outcome = run_adaptively(GetParam(), one, 1e-5, start_time + 1.13);
+  EXPECT_GT(outcome.n_rejected, 0);
+  EXPECT_NE(outcome.rejection.find("times the tolerance"), std::string::npos) << outcome.rejection;
+  EXPECT_LT(outcome.error, 2e-3);  // 54 times what it was off by at the wall
+}
+
+TEST_P(Controlled, LandsOnTheEndAndInterpolatesInside) {
+  for (const Case& one : make_cases()) {
+    DecayingRightHandSide rhs(one.problem.velocity, one.rate);
+    const auto integrator = GetParam().make(rhs, make_options());
+    State state = make_state(one.problem);
+    const Vectors inside("test::inside", n_nodes);
+    for (const double end : {0.3, 0.7, 1.0 + 1e-9}) {
+      while (state.time < end) {
+        const double before = state.time;
+        integrator->advance(state, end);
+        const double time = 0.3 * before + 0.7 * state.time;
+        integrator->interpolate(time, inside);
+        EXPECT_LT(distance(to_host(ConstVectors(inside)), one.problem.solution_at(time)), 1e-3) << one.name;
+      }
+      EXPECT_EQ(state.time, end);
+    }
+  }
+}
+
+TEST_P(Controlled, KeepsTheLastGoodStateWhenVelocitiesAreNotANumber) {
+  for (const double failing : {0.0, 1.0}) {
+    const Problem sound = make_slow();
+    const auto velocity = [&](const double t, const int node, const Vec3 x) {
+      Vec3 u = sound.velocity(t, node, x);
+      if (t > failing && node == 2) u.y = std::nan("");
+      return u;
+    };
+    DecayingRightHandSide rhs(velocity, {0.5, 0.9, 1.3, 1.7});
+    const auto integrator = GetParam().make(rhs, make_options());
+    State state = make_state(sound);
+    double time = 0.0;
+    std::vector<Vec3> position;
+    std::string message;
+    const ExitCode code = code_of(
+        [&] {
+          while (state.time < 3.0) {
+            time = state.time;
+            position = to_host(ConstVectors(state.position));
+            integrator->advance(state, 3.0);
+          }
+        },
+        &message);
+    EXPECT_EQ(code, ExitCode::numerical);
+    EXPECT_NE(message.find("node 2"), std::string::npos) << message;
+    EXPECT_EQ(state.time, time);
+    EXPECT_EQ(to_host(ConstVectors(state.position)), position);
+    EXPECT_LE(state.time, std::max(failing, start_time) + 1e-9);
+  }
+}
+
+TEST(TrBdf2, DampsWhatItDoesNotResolve) {
+  const std::vector<double> rate = {1e2, 1e4, 1e6, 1e8};
+  DecayingRightHandSide rhs([=](double, const int node, const Vec3 x) { return -rate[node] * x; }, rate);
+  Rkc2Options options = make_options();
+  options.fixed_step = 0.1;
+  options.tolerance = 1e-6;
+  TrBdf2 integrator(rhs, options, n_nodes);
+  State state;
+  state.position = to_device("test::position", std::vector<Vec3>(n_nodes, Vec3{0.4, -0.4, 0.4}));
+  for (int step = 0; step < 12; ++step) integrator.advance(state, 1e9);
+  for (const Vec3 x : to_host(ConstVectors(state.position))) EXPECT_LT(norm(x), 1e-5);
+  EXPECT_LE(rhs.factorizations, 12);
+}
+
+TEST(TrBdf2, NeedsALinearization) {
+  PointwiseRightHandSide rhs(make_slow().velocity);
+  EXPECT_EQ(code_of([&] { TrBdf2(rhs, make_options(), n_nodes); }), ExitCode::internal);
+}
+
+}  // namespace
+}  // namespace skein
