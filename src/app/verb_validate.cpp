@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/json_text.hpp"
+#include "app/mobility_choice.hpp"
 #include "app/placed_scene.hpp"
 #include "app/scene_summary.hpp"
 #include "app/terminal.hpp"

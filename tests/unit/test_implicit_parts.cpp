@@ -164,7 +164,7 @@ struct LinearizedFibers {
   Bent bent;
   FiberDynamics dynamics;
   LinearizedFibers()
-      : dynamics(bent.fibers, std::make_unique<SpringForces>(bent.fibers), make_background_flow(FlowConfig{}),
+      : dynamics(bent.fibers, std::make_unique<SpringForces>(bent.fibers), make_background_flow({FlowConfig{}}),
                  std::make_unique<DirectMobility>(1.7, Precision::in_double)) {}
 };
 
