@@ -21,6 +21,7 @@ namespace {
 std::vector<FiberConfig> make_configs() {
   FiberConfig one, two;
   one.sections = 12, one.nodes_per_section = 6, one.blob = 0.003, one.direction = {0.3, -1.0, 0.8};
+  one.stiffness_profile = {{0.0, 1.0}, {0.4, 3.0}, {1.0, 0.5}};
   two.sections = 3, two.nodes_per_section = 9, two.blob = 0.002, two.spring_stiffness = 0.023,
   two.center = {0.0, 0.05, 0.0};
   return {one, two};
