@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 
+#include "kernels/spring_node.hpp"
 #include "kernels/spring_tile.hpp"
 
 namespace skein {
@@ -22,32 +23,14 @@ KOKKOS_INLINE_FUNCTION StencilPointers stencil_of(const SpringArrays<Space>& spr
 template <class Space>
 KOKKOS_INLINE_FUNCTION Vec3 force_on_node(const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
                                           const int node) {
-  const FiberSprings fiber = springs.fiber(springs.fiber_of_node(node));
-  const StencilPointers stencil = stencil_of(springs, fiber);
-  const int n = fiber.nodes_per_section;
-  const int section = (node - fiber.first_node) / n;
-  const int a = (node - fiber.first_node) % n;
   const Vec3 x = load(position, node);
-  const int first = math::larger(0, section - fiber.reach);
-  const int last = math::smaller(fiber.n_sections - 1, section + fiber.reach);
-
   Vec3 force;
-  for (int other_section = first; other_section <= last; ++other_section) {
-    // Springs are listed from the earlier section to the later one.
-    const int sense = other_section < section ? -1 : 1;
-    const int row = sense * (other_section - section) * n;
-    const int first_other = fiber.first_node + other_section * n;
-    const double factor = spring_factor<Space>(springs, fiber, section, other_section);
-    for (int b = 0; b < n; ++b) {
-      const int steps = sense * (b - a);
-      const int entry = row + (steps < 0 ? steps + n : steps);
-      const double stiffness = factor * stencil.stiffness[entry];
-      const Vec3 d = x - load(position, first_other + b);
-      const double r_squared = dot(d, d);
-      if (stiffness == 0.0 || r_squared == 0.0) continue;
-      force = force + stiffness * (math::inverse_sqrt(r_squared) - stencil.inverse_rest_length[entry]) * d;
-    }
-  }
+  for_each_spring<Space>(springs, node, [&](const int other, const double stiffness, const double inverse_rest_length) {
+    const Vec3 d = x - load(position, other);
+    const double r_squared = dot(d, d);
+    if (r_squared == 0.0) return;
+    force = force + stiffness * (math::inverse_sqrt(r_squared) - inverse_rest_length) * d;
+  });
   return force;
 }
 
