@@ -87,6 +87,8 @@ endif()
 skein_check_kokkos()
 
 skein_find(libeigen3-dev Eigen3 CONFIG)
+# Only the host uses it; its device annotations make nvcc warn.
+target_compile_definitions(Eigen3::Eigen INTERFACE EIGEN_NO_CUDA EIGEN_NO_HIP)
 enable_language(C) # CMake's FindHDF5 compiles a C program
 skein_find(libhdf5-dev HDF5 COMPONENTS C)
 skein_find(libcli11-dev CLI11 CONFIG)

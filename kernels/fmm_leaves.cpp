@@ -71,7 +71,7 @@ void add_near_tile(const LeafTargets<Real>& targets, const int first, const Near
   for (int s = 0; s < sources.n; ++s) {
     const Real fx = sources.force[0][s], fy = sources.force[1][s], fz = sources.force[2][s];
     const Real blob_squared = sources.blob_squared[s];
-#pragma GCC unroll 4
+    SKEIN_UNROLL
     for (int k = 0; k < packs; ++k) {
       const Pack<Real> dx = x[k][0] - sources.y[0][s], dy = x[k][1] - sources.y[1][s], dz = x[k][2] - sources.y[2][s];
       const auto weight = regularized_stokeslet::weights(dx, dy, dz, blob_squared);
@@ -109,7 +109,7 @@ void add_densities(const Field& field, const OperatorSet<Real>& operators, const
                            size * operators.surface(j, 2)};
     Real q[Field::n_planes];
     for (int plane = 0; plane < Field::n_planes; ++plane) q[plane] = density[plane * operators.n_padded + j];
-#pragma GCC unroll 4
+    SKEIN_UNROLL
     for (int k = 0; k < packs; ++k) field.add_density(x[k][0], x[k][1], x[k][2], point, q, u[k]);
   }
   for (int k = 0; k < packs; ++k) add_lanes<Real>(u[k], first + k * width, scale, sum);

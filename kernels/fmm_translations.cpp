@@ -43,9 +43,8 @@ void add_potentials(const Field& field, const OperatorSet<Real>& operators, cons
   Pack<Real> x[packs][3], sum[packs][Field::n_planes] = {};
   for (int k = 0; k < packs; ++k)
     for (int c = 0; c < 3; ++c) x[k][c] = size * simd::load_pack(&operators.surface(first + k * width, c));
-  for (int s = 0; s < n_sources; ++s)
-#pragma GCC unroll 4
-    for (int k = 0; k < packs; ++k) field.add_source(x[k][0], x[k][1], x[k][2], sources[s], sum[k]);
+  for (int s = 0; s < n_sources; ++s) SKEIN_UNROLL
+  for (int k = 0; k < packs; ++k) field.add_source(x[k][0], x[k][1], x[k][2], sources[s], sum[k]);
   for (int k = 0; k < packs; ++k)
     for (int plane = 0; plane < Field::n_planes; ++plane) {
       Real* const at = potential + plane * operators.n_padded + first + k * width;

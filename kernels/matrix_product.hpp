@@ -17,19 +17,18 @@ inline void multiply_block(const Real* a, const int a_stride, const int depth, c
   Pack<Real> sum[n_columns][row_packs] = {};
   for (int k = 0; k < depth; ++k) {
     Pack<Real> column[row_packs];
-#pragma GCC unroll 8
+    SKEIN_UNROLL
     for (int i = 0; i < row_packs; ++i) column[i] = simd::load_pack(a + k * a_stride + i * simd::width<Real>);
-#pragma GCC unroll 8
+    SKEIN_UNROLL
     for (int j = 0; j < n_columns; ++j) {
       const Real factor = b[k + j * b_stride];
-#pragma GCC unroll 8
+      SKEIN_UNROLL
       for (int i = 0; i < row_packs; ++i) sum[j][i] += column[i] * factor;
     }
   }
-#pragma GCC unroll 8
-  for (int j = 0; j < n_columns; ++j)
-#pragma GCC unroll 8
-    for (int i = 0; i < row_packs; ++i) simd::store_pack(c + j * c_stride + i * simd::width<Real>, sum[j][i]);
+  SKEIN_UNROLL
+  for (int j = 0; j < n_columns; ++j) SKEIN_UNROLL
+  for (int i = 0; i < row_packs; ++i) simd::store_pack(c + j * c_stride + i * simd::width<Real>, sum[j][i]);
 }
 
 template <int row_packs, class Real>

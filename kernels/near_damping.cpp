@@ -1,4 +1,3 @@
-#define EIGEN_NO_CUDA
 #define EIGEN_DONT_PARALLELIZE  // the last bits must not depend on the number of threads
 
 #include "kernels/near_damping.hpp"

@@ -1,4 +1,3 @@
-#define EIGEN_NO_CUDA
 #define EIGEN_DONT_PARALLELIZE  // its blocking, and so the last bits, would depend on the number of threads
 
 #include "kernels/section_band.hpp"

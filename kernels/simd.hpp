@@ -12,7 +12,7 @@
 
 /// Before a loop over a few packs: keeps them in registers. nvcc's front end does not know the pragma.
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
-#define SKEIN_UNROLL _Pragma("GCC unroll 4")
+#define SKEIN_UNROLL _Pragma("GCC unroll 8")
 #else
 #define SKEIN_UNROLL
 #endif

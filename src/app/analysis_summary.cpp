@@ -25,8 +25,8 @@ std::string describe_passages(const FiberSummary& summary) {
   std::string upright, aligned;
   for (const Passage& passage : summary.passages)
     (passage.quarter_turns % 2 == 0 ? aligned : upright) += fmt::format(" {:.4g}", passage.time);
-  return fmt::format("  upright at t ={}\n  aligned with x at t ={}\n", upright.empty() ? " -" : upright,
-                     aligned.empty() ? " -" : aligned);
+  return fmt::format("  upright {}\n  aligned with x {}\n", upright.empty() ? "at no time" : "at t =" + upright,
+                     aligned.empty() ? "at no time since the start" : "at t =" + aligned);
 }
 
 std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber) {
