@@ -27,8 +27,10 @@ inline void multiply_block(const Real* a, const int a_stride, const int depth, c
     }
   }
   SKEIN_UNROLL
-  for (int j = 0; j < n_columns; ++j) SKEIN_UNROLL
-  for (int i = 0; i < row_packs; ++i) simd::store_pack(c + j * c_stride + i * simd::width<Real>, sum[j][i]);
+  for (int j = 0; j < n_columns; ++j) {
+    SKEIN_UNROLL
+    for (int i = 0; i < row_packs; ++i) simd::store_pack(c + j * c_stride + i * simd::width<Real>, sum[j][i]);
+  }
 }
 
 template <int row_packs, class Real>
