@@ -59,6 +59,7 @@ Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const 
       progress_(progress, checkpoint == nullptr ? 0.0 : checkpoint->number("state.time"), scene.time.end,
                 checkpoint == nullptr ? 0 : checkpoint->integer("run.evaluations")),
       frame_position_("skein::Simulation::frame_position", state_.position.extent(0)),
+      guard_(fibers_),
       last_checkpoint_(Clock::now()),
       quiet_(quiet) {
   control_.watch(folder);
@@ -81,6 +82,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
   integrator_->visit_memory(restorer);
   dynamics_.visit_memory(restorer);
   counters_.visit_memory(restorer);
+  guard_.visit_memory(restorer);
   step_of_checkpoint_ = state_.step;
 }
 
@@ -96,6 +98,7 @@ void Simulation::save_checkpoint() {
   integrator_->visit_memory(saver);
   dynamics_.visit_memory(saver);
   counters_.visit_memory(saver);
+  guard_.visit_memory(saver);
   write_trajectory_end(checkpoint, trajectory_.end());
   checkpoint.set("scene.xxh3", find_trajectory_start(folder_).checksum);
   checkpoint.set("scene.seed", std::vector<std::int64_t>{static_cast<std::int64_t>(scene_.seed)});
@@ -231,7 +234,9 @@ void Simulation::count(const StepReport& report) {
   }
   if (report.rejected == 0) return;
   counters_.rejected += report.rejected;
-  events_.write("rejected", {{"time", state_.time}, {"attempts", std::int64_t{report.rejected}}, {"dt", report.dt},
+  events_.write("rejected", {{"time", state_.time},
+                             {"attempts", std::int64_t{report.rejected}},
+                             {"dt", report.dt},
                              {"reason", report.rejection}});
 }
 
@@ -247,6 +252,7 @@ void Simulation::save_last_good_state(const Error& error) {
   say(fmt::format("the last good state, t = {:.6g}, step {}, is in '{}'", state_.time, state_.step,
                   checkpoints_.path_of(checkpoints_.last_number()).string()));
   say(describe_cost(make_cost_card()));
+  if (const std::string limits = guard_.describe(); !limits.empty()) say(limits);
 }
 
 void Simulation::report_end(const ExitCode code) {
@@ -257,6 +263,7 @@ void Simulation::report_end(const ExitCode code) {
                     scene_.time.end, state_.step, control_.reason(), folder_.path().string()));
   const CostCard card = make_cost_card();
   say(describe_cost(card));
+  if (const std::string limits = guard_.describe(); !limits.empty()) say(limits);
   events_.write("end", {{"time", state_.time},
                         {"steps", state_.step},
                         {"evaluations", counters_.evaluations},
@@ -345,6 +352,10 @@ void Simulation::record_step(const StepReport& report) {
   record.fmm_order = errors.order;
   record.fmm_misses = errors.n_misses;
   trajectory_.append(record);
+  for (const std::string& warning : guard_.look(record, dynamics_.springs().compute_largest_strain(state_.position))) {
+    say(warning);
+    events_.write("warning", {{"time", state_.time}, {"step", state_.step}, {"message", warning}});
+  }
 }
 
 }  // namespace skein

@@ -16,6 +16,7 @@
 
 #include "app/cost_card.hpp"
 #include "app/fault_injection.hpp"
+#include "app/model_guard.hpp"
 #include "app/progress.hpp"
 #include "app/run_control.hpp"
 #include "app/watched_dynamics.hpp"
@@ -87,6 +88,7 @@ class Simulation {
   std::vector<Regime> regimes_;  ///< [n_fibers], of the last frame
 
   Counters counters_, counters_at_start_;
+  ModelGuard guard_;
   std::int64_t spare_evaluations_ = 0;  ///< that measured their own cost, and their pairs
   double spare_pairs_ = 0.0;
   FiberDynamics::Seconds spare_seconds_;

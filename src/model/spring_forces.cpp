@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kernels/spring_force.hpp"
+#include "kernels/spring_strain.hpp"
 #include "kernels/spring_tangent.hpp"
 
 namespace skein {
@@ -91,6 +92,10 @@ void SpringForces::compute_forces(const ConstVectors& position, const Vectors& f
 void SpringForces::compute_force_changes(const ConstVectors& position, const ConstVectors& displacement,
                                          const Vectors& change) const {
   compute_spring_force_change<ExecSpace>(ExecSpace(), *springs_, position, displacement, change);
+}
+
+double SpringForces::compute_largest_strain(const ConstVectors& position) const {
+  return skein::compute_largest_strain<ExecSpace>(ExecSpace(), *springs_, position);
 }
 
 std::vector<double> SpringForces::compute_energies(const ConstVectors& position) const {

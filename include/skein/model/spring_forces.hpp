@@ -32,6 +32,9 @@ class SpringForces {
   void compute_force_changes(const ConstVectors& position, const ConstVectors& displacement,
                              const Vectors& change) const;
 
+  /// The largest |r/l - 1| over all springs, r their length and l that at rest.
+  double compute_largest_strain(const ConstVectors& position) const;
+
   /// Elastic energy of each fiber, force * length. @returns [n_fibers]
   std::vector<double> compute_energies(const ConstVectors& position) const;
 
