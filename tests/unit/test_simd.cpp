@@ -114,8 +114,10 @@ TYPED_TEST(PackTest, LanesAreAddedInDouble) {
 
 TYPED_TEST(PackTest, NotANumberStaysOneInItsLaneAlone) {
   using Real = TypeParam;
-  simd::Pack<Real> x = simd::Pack<Real>{} + Real(4);
-  x[1] = std::numeric_limits<Real>::quiet_NaN();
+  Real lanes[simd::width<Real>];
+  for (int lane = 0; lane < simd::width<Real>; ++lane) lanes[lane] = Real(4);
+  lanes[1] = std::numeric_limits<Real>::quiet_NaN();
+  const simd::Pack<Real> x = simd::load_pack(lanes);
   const simd::Pack<Real> y = simd::inverse_sqrt_cubed(x);
   for (int lane = 0; lane < simd::width<Real>; ++lane) EXPECT_EQ(std::isnan(y[lane]), lane == 1) << "lane " << lane;
 }
