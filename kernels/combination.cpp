@@ -66,12 +66,12 @@ double dot_product(const Space& space, const ConstVectorView<Space>& a, const Co
   return total;
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                         \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                          \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,           \
-                           const Term<S>&);                                                                          \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,           \
-                           const Term<S>&, const Term<S>&);                                                          \
+#define SKEIN_INSTANTIATE(S)                                                                               \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&, \
+                           const Term<S>&);                                                                \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&, \
+                           const Term<S>&, const Term<S>&);                                                \
   template double dot_product<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

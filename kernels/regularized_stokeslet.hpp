@@ -44,8 +44,7 @@ struct Weights {
 
 /// Lanes is a number, or a CPU vector with one target in each lane; BlobSquared may be a number for all lanes.
 template <class Lanes, class BlobSquared>
-SKEIN_FORMULA Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes dz,
-                                                   const BlobSquared blob_squared) {
+SKEIN_FORMULA Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes dz, const BlobSquared blob_squared) {
   const Lanes core_squared = dx * dx + (dy * dy + (dz * dz + blob_squared));
   const Lanes along = math::inverse_sqrt_cubed(core_squared);
   return {along, along * (core_squared + blob_squared)};
@@ -53,8 +52,8 @@ SKEIN_FORMULA Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes
 
 /// u += 8 pi viscosity times the velocity due to the force f.
 template <class Lanes, class Force>
-SKEIN_FORMULA void add(const Weights<Lanes> weight, const Lanes dx, const Lanes dy, const Lanes dz,
-                                     const Force fx, const Force fy, const Force fz, Lanes& ux, Lanes& uy, Lanes& uz) {
+SKEIN_FORMULA void add(const Weights<Lanes> weight, const Lanes dx, const Lanes dy, const Lanes dz, const Force fx,
+                       const Force fy, const Force fz, Lanes& ux, Lanes& uy, Lanes& uz) {
   const Lanes along = weight.along * (fx * dx + fy * dy + fz * dz);
   // Two fused operations each; as one sum, the compiler makes three of it.
   ux += weight.isotropic * fx;

@@ -15,8 +15,8 @@ void compute_section_centroids(const Space& space, const ConstVectorView<Space>&
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                        \
-  template void compute_section_centroids<S>(const S&, const ConstVectorView<S>&, const SectionRun&, int,           \
+#define SKEIN_INSTANTIATE(S)                                                                              \
+  template void compute_section_centroids<S>(const S&, const ConstVectorView<S>&, const SectionRun&, int, \
                                              const VectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

@@ -8,8 +8,9 @@
 
 namespace skein::perf {
 
-/// Wall times of several bodies in seconds, the median of `repeats` each. The bodies take turns, so that a noisy machine
-/// disturbs all of them alike and ratios hold. One warm-up each; the device is idle at every start and every stop.
+/// Wall times of several bodies in seconds, the median of `repeats` each. The bodies take turns, so that a noisy
+/// machine disturbs all of them alike and ratios hold. One warm-up each; the device is idle at every start and every
+/// stop.
 template <class Body>
 std::vector<double> median_seconds(const int repeats, const std::vector<Body>& bodies) {
   std::vector<std::vector<double>> seconds(bodies.size());

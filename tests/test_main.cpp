@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);
   const skein::Runtime runtime;

@@ -26,7 +26,8 @@ double expect_evaluations(const SceneConfig& scene, const double spectral_radius
   const double dt = scene.time.step > 0.0
                         ? scene.time.step
                         : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
-  if (scene.time.method == "rk4" || scene.time.method == "bs3") return 4.0 * end * std::max(1.0 / dt, spectral_radius / 2.5);
+  if (scene.time.method == "rk4" || scene.time.method == "bs3")
+    return 4.0 * end * std::max(1.0 / dt, spectral_radius / 2.5);
   return end / dt * (1.0 + std::sqrt(1.0 + 1.54 * dt * 1.2 * spectral_radius));
 }
 

@@ -185,7 +185,8 @@ void visit_time(KeyVisitor& visitor, TimeConfig& time) {
                   {"euler", "forward Euler with a fixed step"}},
                  time.method);
   visitor.number({"end", "time", zero_or_more(), "time at which the run ends; it starts at 0"}, time.end);
-  visitor.number({"step", "time", zero_or_more(), "fixed step; 0 leaves it to the error control; euler needs one"}, time.step);
+  visitor.number({"step", "time", zero_or_more(), "fixed step; 0 leaves it to the error control; euler needs one"},
+                 time.step);
   visitor.number({"tolerance", "", between(1e-12, 1.0),
                   "error allowed per unit of time, as a fraction of the longest fiber's length"},
                  time.tolerance);

@@ -29,7 +29,8 @@ SpectralRadius::SpectralRadius(const int n_nodes, const double displacement, con
       direction_(to_device("skein::SpectralRadius::direction", make_noise(n_nodes, seed))),
       displaced_("skein::SpectralRadius::displaced", static_cast<std::size_t>(n_nodes)),
       displaced_velocity_("skein::SpectralRadius::displaced_velocity", static_cast<std::size_t>(n_nodes)) {
-  combine<ExecSpace>(ExecSpace(), direction_, {1.0 / root_mean_square<ExecSpace>(ExecSpace(), direction_), direction_}, {0.0, direction_});
+  combine<ExecSpace>(ExecSpace(), direction_, {1.0 / root_mean_square<ExecSpace>(ExecSpace(), direction_), direction_},
+                     {0.0, direction_});
 }
 
 double SpectralRadius::estimate(RightHandSide& rhs, const double time, const ConstVectors& position,

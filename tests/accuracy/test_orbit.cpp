@@ -1,5 +1,5 @@
-// The L = 0.139 half turn: reference values of an independent prototype, which agree with the snapshot times of LaGrone,
-// Cortez, Yan and Fauci 2019 (Fig. "tumble", first column).
+// The L = 0.139 half turn: reference values of an independent prototype, which agree with the snapshot times of
+// LaGrone, Cortez, Yan and Fauci 2019 (Fig. "tumble", first column).
 
 #include "tests/support/paper_fiber.hpp"
 
@@ -86,8 +86,8 @@ TEST(OrbitSlow, EulerConvergesToRkc2WithFirstOrder) {
   std::printf("difference to RKC2 at t = 6: %.3e L at dt = 1.6e-4, %.3e L at dt = 1e-4, order %.3f\n", coarse, fine,
               std::log(coarse / fine) / std::log(1.6));
   EXPECT_LT(fine, 3e-3);
-  // First order, up to what RKC2 itself is off by: a few times its tolerance. A difference that did not fall with dt, or
-  // fell with its square, would miss this bound by a factor of two.
+  // First order, up to what RKC2 itself is off by: a few times its tolerance. A difference that did not fall with dt,
+  // or fell with its square, would miss this bound by a factor of two.
   constexpr double rkc2_error = 3.0 * 1e-5;
   EXPECT_NEAR(coarse, 1.6 * fine, 0.6 * rkc2_error);
   EXPECT_GT(coarse, 3.0 * rkc2_error) << "too close to tell an order";

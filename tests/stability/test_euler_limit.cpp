@@ -1,5 +1,5 @@
-// Forward Euler's limit for the paper's fiber: 2 over the spectral radius of the spring-mobility operator, where sections
-// ovalize with alternating sign.
+// Forward Euler's limit for the paper's fiber: 2 over the spectral radius of the spring-mobility operator, where
+// sections ovalize with alternating sign.
 
 #include "tests/support/paper_fiber.hpp"
 
@@ -20,8 +20,7 @@ TEST(SpectralRadius, IsElevenThousandAtEveryLength) {
     const Vectors velocity("velocity", fiber.state.position.extent(0));
     fiber.dynamics->compute_velocity(0.0, fiber.state.position, velocity);
     SpectralRadius power_iteration(fiber.n_nodes(), 1e-8, 1);
-    const double radius =
-        power_iteration.estimate(*fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
+    const double radius = power_iteration.estimate(*fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
     EXPECT_NEAR(radius, 1.1e4, 0.03 * 1.1e4) << sections << " sections";
   }
 }
@@ -43,8 +42,8 @@ TEST(Euler, IsStableBelowItsLimit) {
   Euler euler(*fiber.dynamics, 1.75e-4, fiber.length(), fiber.n_nodes());
   for (int step = 0; step < 3000; ++step) ASSERT_NO_THROW(euler.advance(fiber.state, 100.0)) << "step " << step;
   // The fiber is about as long as it was (shear compresses it a little): an unstable mode would have grown by 1e100.
-  EXPECT_NEAR(norm(compute_end_to_end(compute_centreline(fiber.fibers, fiber.state.position))), 79.0 / 80.0 * fiber.length(),
-              5e-3 * fiber.length());
+  EXPECT_NEAR(norm(compute_end_to_end(compute_centreline(fiber.fibers, fiber.state.position))),
+              79.0 / 80.0 * fiber.length(), 5e-3 * fiber.length());
 }
 
 TEST(Euler, IsCaughtBlowingUpAboveItsLimit) {

@@ -16,8 +16,8 @@ inline std::span<const Vec3> centreline_of(const Fiber& fiber, const std::vector
   return std::span(centreline).subspan(fiber.first_section, fiber.config.sections);
 }
 
-/// Unsigned curvature at each section: of the circle through it and the sections `reach` before and after it, fewer near
-/// an end. End sections take the value of their neighbour; a fiber of two sections is straight.
+/// Unsigned curvature at each section: of the circle through it and the sections `reach` before and after it, fewer
+/// near an end. End sections take the value of their neighbour; a fiber of two sections is straight.
 /// @returns [n_sections of the fiber], 1 / length
 std::vector<double> compute_curvature(std::span<const Vec3> centreline, int reach = 2);
 

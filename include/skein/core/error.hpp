@@ -36,7 +36,7 @@ class Error : public std::runtime_error {
 
 /// A precondition of a function: throws Error(internal, "file:line: message (condition)").
 /// The message is evaluated only on failure.
-#define SKEIN_REQUIRE(condition, message)                                                        \
-  do {                                                                                           \
+#define SKEIN_REQUIRE(condition, message)                                                            \
+  do {                                                                                               \
     if (!(condition)) ::skein::throw_broken_precondition(#condition, (message), __FILE__, __LINE__); \
   } while (false)

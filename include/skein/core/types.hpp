@@ -56,8 +56,7 @@ std::vector<double> to_host(const ConstScalars& device);
 
 /// Calls X(space) for every execution space the kernels are compiled for.
 #if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP)
-#define SKEIN_FOR_EACH_EXEC_SPACE(X) \
-  X(Kokkos::DefaultHostExecutionSpace) X(Kokkos::DefaultExecutionSpace)
+#define SKEIN_FOR_EACH_EXEC_SPACE(X) X(Kokkos::DefaultHostExecutionSpace) X(Kokkos::DefaultExecutionSpace)
 #else
 #define SKEIN_FOR_EACH_EXEC_SPACE(X) X(Kokkos::DefaultExecutionSpace)
 #endif
