@@ -1,8 +1,8 @@
 #include "app/evaluation_time.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
+#include <skein/core/stopwatch.hpp>
 #include <skein/hydro/direct_mobility.hpp>
 #include <skein/time/make_integrator.hpp>
 #include <vector>
@@ -11,21 +11,12 @@
 #include "app/run_description.hpp"
 
 namespace skein {
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(const Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
   const Vectors velocity("skein::time_evaluation", position.extent(0));
   std::vector<double> seconds;
   for (int repeat = 0; repeat < 6; ++repeat) {
-    const auto start = Clock::now();
+    const auto start = WallClock::now();
     dynamics.compute_velocity(0.0, position, velocity);
     Kokkos::fence();
     const double last = seconds_since(start);
@@ -50,7 +41,7 @@ double time_direct_sum(const ConstVectors& position, const double viscosity) {
   DirectMobility direct(viscosity, Precision::in_double);
   double seconds = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < 3; ++repeat) {
-    const auto start = Clock::now();
+    const auto start = WallClock::now();
     direct.add_velocity({some, force, blob}, some, velocity);
     Kokkos::fence();
     seconds = std::min(seconds, seconds_since(start));

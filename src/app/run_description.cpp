@@ -56,15 +56,12 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  layout.attributes = {{"title", scene.title},
-                       {"scene", scene_text},
-                       {"version", version()},
-                       {"commit", commit()},
-                       {"build", describe_build()},
-                       {"backend", describe_backend()},
-                       {"flow", make_background_flow(scene.flows)->describe()},
-                       {"integrator", scene.time.method}};
-  const double rate = make_background_flow(scene.flows)->typical_rate();
+  const auto flow = make_background_flow(scene.flows);
+  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
+                       {"version", version()},      {"commit", commit()},
+                       {"build", describe_build()}, {"backend", describe_backend()},
+                       {"flow", flow->describe()},  {"integrator", scene.time.method}};
+  const double rate = flow->typical_rate();
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);

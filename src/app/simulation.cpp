@@ -19,12 +19,6 @@
 namespace skein {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(const Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 std::unique_ptr<Mobility> add_fault(std::unique_ptr<Mobility> mobility, const FaultOrder& order,
                                     const CurrentStep& step) {
   if (order.target != "force") return mobility;
@@ -60,7 +54,7 @@ Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const 
                 checkpoint == nullptr ? 0 : checkpoint->integer("run.evaluations")),
       frame_position_("skein::Simulation::frame_position", state_.position.extent(0)),
       guard_(fibers_),
-      last_checkpoint_(Clock::now()),
+      last_checkpoint_(WallClock::now()),
       quiet_(quiet) {
   control_.watch(folder);
   if (checkpoint != nullptr) restore(*checkpoint);
@@ -88,7 +82,7 @@ void Simulation::restore(const Checkpoint& checkpoint) {
 
 void Simulation::save_checkpoint() {
   if (step_of_checkpoint_ == state_.step) return;
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   const double trajectory_seconds = trajectory_.seconds_spent();
   trajectory_.close_segment();
   counters_.seconds = seconds_of_run();
@@ -107,7 +101,7 @@ void Simulation::save_checkpoint() {
   checkpoint.set("program.backend", describe_backend());
   checkpoint_bytes_ += checkpoints_.write(checkpoint, scene_.checkpoint.keep);
   step_of_checkpoint_ = state_.step;
-  last_checkpoint_ = Clock::now();
+  last_checkpoint_ = WallClock::now();
   const double seconds = seconds_since(start);
   control_.note_checkpoint(seconds);
   checkpoint_seconds_ += seconds - (trajectory_.seconds_spent() - trajectory_seconds);
@@ -147,6 +141,11 @@ void Simulation::say(const std::string& text) {
   if (quiet_) return;
   progress_.clear();
   std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void Simulation::say_cost(const CostCard& card) {
+  say(describe_cost(card));
+  if (const std::string limits = guard_.describe(); !limits.empty()) say(limits);
 }
 
 double Simulation::seconds_of_run() const { return counters_at_start_.seconds + seconds_since(start_); }
@@ -193,15 +192,15 @@ void Simulation::advance_to_end() {
 }
 
 void Simulation::take_step() {
-  const auto start = Clock::now();
+  const auto start = WallClock::now();
   current_step_.number = state_.step + 1;
   const StepReport report = advance();
   count(report);
-  const auto recording = Clock::now();
+  const auto recording = WallClock::now();
   double in_trajectory = trajectory_.seconds_spent();
   record_step(report);
   observables_seconds_ += seconds_since(recording) - (trajectory_.seconds_spent() - in_trajectory);
-  const auto framing = Clock::now();
+  const auto framing = WallClock::now();
   in_trajectory = trajectory_.seconds_spent();
   write_frames_up_to(state_.time);
   frame_seconds_ += seconds_since(framing) - (trajectory_.seconds_spent() - in_trajectory);
@@ -210,11 +209,7 @@ void Simulation::take_step() {
 
 StepReport Simulation::advance() {
   // Also steps that are not finished take time.
-  const struct Stopwatch {
-    double& sum;
-    Clock::time_point start = Clock::now();
-    ~Stopwatch() { sum += seconds_since(start); }
-  } stopwatch{integration_seconds_};
+  const Stopwatch stopwatch(integration_seconds_);
   const Remembered before(dynamics_);
   try {
     return integrator_->advance(state_, scene_.time.end);
@@ -251,8 +246,7 @@ void Simulation::save_last_good_state(const Error& error) {
   trajectory_.finish("failed");
   say(fmt::format("the last good state, t = {:.6g}, step {}, is in '{}'", state_.time, state_.step,
                   checkpoints_.path_of(checkpoints_.last_number()).string()));
-  say(describe_cost(make_cost_card()));
-  if (const std::string limits = guard_.describe(); !limits.empty()) say(limits);
+  say_cost(make_cost_card());
 }
 
 void Simulation::report_end(const ExitCode code) {
@@ -262,8 +256,7 @@ void Simulation::report_end(const ExitCode code) {
     say(fmt::format("stopped at t = {:.6g} of {:g} (step {}): {}. 'skein resume {}' goes on.", state_.time,
                     scene_.time.end, state_.step, control_.reason(), folder_.path().string()));
   const CostCard card = make_cost_card();
-  say(describe_cost(card));
-  if (const std::string limits = guard_.describe(); !limits.empty()) say(limits);
+  say_cost(card);
   events_.write("end", {{"time", state_.time},
                         {"steps", state_.step},
                         {"evaluations", counters_.evaluations},

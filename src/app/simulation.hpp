@@ -1,10 +1,10 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
 #include <skein/analysis/regime.hpp>
 #include <skein/config/scene_config.hpp>
 #include <skein/core/error.hpp>
+#include <skein/core/stopwatch.hpp>
 #include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/event_log.hpp>
 #include <skein/io/run_folder.hpp>
@@ -42,8 +42,6 @@ class Simulation {
   ExitCode run();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// Counts over all processes that took part in the run, up to the last accepted step.
   struct Counters {
     std::int64_t evaluations = 0, rejected = 0, next_frame = 0;
@@ -65,9 +63,10 @@ class Simulation {
   void record_step(const StepReport& report);
   void report_end(ExitCode code);
   CostCard make_cost_card() const;
+  void say_cost(const CostCard& card);
   double seconds_of_run() const;
 
-  Clock::time_point start_ = Clock::now();  // first: setting up counts
+  WallClock::time_point start_ = WallClock::now();  // first: setting up counts
   SceneConfig scene_;
   RunFolder folder_;
   RunControl& control_;
@@ -94,7 +93,7 @@ class Simulation {
   FiberDynamics::Seconds spare_seconds_;
   double direct_seconds_ = 0.0;  ///< that a direct sum would take, estimated; 0 where that is the method
   std::int64_t steps_at_start_ = 0, step_of_checkpoint_ = -1;
-  Clock::time_point last_checkpoint_;
+  WallClock::time_point last_checkpoint_;
   double step_seconds_ = 0.0, integration_seconds_ = 0.0, observables_seconds_ = 0.0, frame_seconds_ = 0.0,
          checkpoint_seconds_ = 0.0, largest_error_ = 0.0;
   std::uint64_t checkpoint_bytes_ = 0;

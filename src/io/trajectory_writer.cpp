@@ -9,7 +9,7 @@
 #include "xdmf.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <skein/core/stopwatch.hpp>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -19,25 +19,6 @@
 
 namespace skein {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(const Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Adds the time it lived to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& sum) : sum_(sum), start_(Clock::now()) {}
-  ~Stopwatch() { sum_ += seconds_since(start_); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& sum_;
-  Clock::time_point start_;
-};
 
 // Segments that the index does not list, and files that a killed process left unfinished.
 void remove_leftovers(const RunFolder& folder, const std::size_t n_segments) {
@@ -55,18 +36,28 @@ void remove_leftovers(const RunFolder& folder, const std::size_t n_segments) {
 }  // namespace
 
 struct TrajectoryWriter::Parts {
+  Parts(const RunFolder& run_folder, TrajectoryLayout run_layout, const OutputConfig& output,
+        const SegmentLimits segment_limits)
+      : folder(run_folder),
+        layout(std::move(run_layout)),
+        limits(segment_limits),
+        frames(make_frame_series(layout, output)),
+        records(make_step_series(layout)),
+        xdmf(layout.fibers, output),
+        checksum(checksum_of_file(folder.scene())) {}
+
   RunFolder folder;
   TrajectoryLayout layout;
   SegmentLimits limits;
   Series frames;
   Series records;
   XdmfText xdmf;
-  std::vector<Segment> segments = {};
-  std::string checksum = {};  // end of the chain
+  std::vector<Segment> segments;
+  std::string checksum;  // end of the chain
   std::string status = "running";
   bool index_is_old = true;
   bool failed = false;
-  Clock::time_point last_close = Clock::now();
+  WallClock::time_point last_close = WallClock::now();
   double seconds_of_close = 0.0;
   double seconds = 0.0;
   std::uint64_t bytes = 0;
@@ -97,7 +88,7 @@ void TrajectoryWriter::Parts::take_over(const TrajectoryEnd& end) {
 
 // On an error the buffers and index_is_old still say what is left to do.
 void TrajectoryWriter::Parts::save() {
-  const Clock::time_point start = Clock::now();
+  const WallClock::time_point start = WallClock::now();
   failed = true;
   write_segment_file();
   if (index_is_old) {
@@ -106,7 +97,7 @@ void TrajectoryWriter::Parts::save() {
     index_is_old = false;
   }
   failed = false;
-  last_close = Clock::now();
+  last_close = WallClock::now();
   seconds_of_close = seconds_since(start);
 }
 
@@ -138,23 +129,15 @@ void TrajectoryWriter::Parts::save_when_due() {
 TrajectoryWriter::TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
                                    const SegmentLimits limits) {
   SKEIN_REQUIRE(layout.blobs.size() == static_cast<std::size_t>(count_nodes(layout.fibers)), "one blob for each node");
-  Series frames = make_frame_series(layout, output);
-  Series records = make_step_series(layout);
-  XdmfText xdmf(layout.fibers, output);
-  parts_.reset(new Parts{folder, std::move(layout), limits, std::move(frames), std::move(records), std::move(xdmf)});
+  parts_ = std::make_unique<Parts>(folder, std::move(layout), output, limits);
   const Stopwatch stopwatch(parts_->seconds);
-  parts_->checksum = checksum_of_file(folder.scene());
   parts_->save();
 }
 
 TrajectoryWriter::TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
                                    const TrajectoryEnd& end, const SegmentLimits limits) {
-  Series frames = make_frame_series(layout, output);
-  Series records = make_step_series(layout);
-  XdmfText xdmf(layout.fibers, output);
-  parts_.reset(new Parts{folder, std::move(layout), limits, std::move(frames), std::move(records), std::move(xdmf)});
+  parts_ = std::make_unique<Parts>(folder, std::move(layout), output, limits);
   const Stopwatch stopwatch(parts_->seconds);
-  parts_->checksum = checksum_of_file(folder.scene());
   parts_->take_over(end);
   // The index first: whoever reads must not be sent to segments that are gone.
   parts_->save();

@@ -7,6 +7,7 @@
 #include <skein/time/fiber_dynamics.hpp>
 #include <skein/time/rkc2.hpp>
 
+#include "tests/reference/force_balance.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
 
 // Two fibers that cross in shear: what one does to the other, and what the sum of both may not do.
@@ -88,17 +89,10 @@ TEST(TwoFibers, ForcesAndTorquesOfEachBalanceToRounding) {
   run.go_to(1.0);
   const auto force = run.forces(), position = to_host(run.state.position);
   for (const Fiber& fiber : run.fibers) {
-    Vec3 net, torque;
-    double size = 0.0, moment = 0.0;
-    for (int i = fiber.first_node; i < fiber.first_node + fiber.n_nodes(); ++i) {
-      net = net + force[i];
-      torque = torque + cross(position[i], force[i]);
-      size += norm(force[i]);
-      moment += norm(position[i]) * norm(force[i]);
-    }
-    EXPECT_GT(size, 1e-4);
-    EXPECT_LT(norm(net), 1e-13 * size);
-    EXPECT_LT(norm(torque), 1e-13 * moment);
+    const auto sum = reference::sum_forces(position, force, fiber.first_node, fiber.n_nodes());
+    EXPECT_GT(sum.size, 1e-4);
+    EXPECT_LT(norm(sum.net), 1e-13 * sum.size);
+    EXPECT_LT(norm(sum.torque), 1e-13 * sum.moment);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <skein/core/error.hpp>
 #include <skein/model/spring_forces.hpp>
 
+#include "tests/reference/force_balance.hpp"
+
 namespace skein {
 namespace {
 
@@ -170,16 +172,9 @@ TEST(SpringForce, NoNetForceAndNoNetTorqueInAnyShape) {
     const auto position = deform(fibers, shape.deformation, 13);
     const auto force = forces_of(SpringForces(fibers), position);
     for (const Fiber& fiber : fibers) {
-      Vec3 net, torque;
-      double size = 0.0, moment = 0.0;
-      for (int i = fiber.first_node; i < fiber.first_node + fiber.n_nodes(); ++i) {
-        net = net + force[i];
-        torque = torque + cross(position[i], force[i]);
-        size += norm(force[i]);
-        moment += norm(position[i]) * norm(force[i]);
-      }
-      EXPECT_LT(norm(net), 1e-13 * size);
-      EXPECT_LT(norm(torque), 1e-13 * moment);
+      const auto sum = reference::sum_forces(position, force, fiber.first_node, fiber.n_nodes());
+      EXPECT_LT(norm(sum.net), 1e-13 * sum.size);
+      EXPECT_LT(norm(sum.torque), 1e-13 * sum.moment);
     }
   }
 }

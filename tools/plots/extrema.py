@@ -45,12 +45,7 @@ def draw(run, options):
                                      rasterized=True)
             draw_tracks(panel, file[f"fiber_{f}"], times[-1] - times[0], length)
             panel.set_xlim(0.0, length)
-            panel.set_xlabel("arclength ($L_0$)")
-            panel.xaxis.set_major_locator(plt.MaxNLocator(5 if shown == 1 else 3))
-            if run.n_fibers > 1:
-                panel.set_title(f"fiber {f}" + (f" of {run.n_fibers}" if shown < run.n_fibers else ""))
-    panels[0, 0].set_ylabel(style.TIME_LABEL)
-    figure.colorbar(image, ax=panels[0], label="signed curvature ($1/L_0$)", fraction=0.08, pad=0.03)
+    style.label_kymographs(figure, panels[0], image, "signed curvature", run.n_fibers)
     figure.suptitle(style.describe_fibers(run, 55 if shown == 1 else 95)
                     + "\nlines: followed extrema; numbers: speeds ($L_0/T$)", fontsize=9)
     return figure

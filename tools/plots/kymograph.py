@@ -36,11 +36,6 @@ def draw(run, options):
         image = panel.pcolormesh(arclength, cell_edges(times), curvature, cmap="inferno", vmin=0.0, vmax=highest,
                                  rasterized=True)
         panel.set_facecolor(style.FAINT)  # shows through where a value is not finite
-        panel.set_xlabel("arclength ($L_0$)")
-        panel.xaxis.set_major_locator(plt.MaxNLocator(5 if shown == 1 else 3))
-        if run.n_fibers > 1:
-            panel.set_title(f"fiber {fiber}" + (f" of {run.n_fibers}" if shown < run.n_fibers else ""))
-    panels[0, 0].set_ylabel(style.TIME_LABEL)
-    figure.colorbar(image, ax=panels[0], label="curvature ($1/L_0$)", fraction=0.08, pad=0.03)
+    style.label_kymographs(figure, panels[0], image, "curvature", run.n_fibers)
     figure.suptitle(style.describe_fibers(run, 55 if shown == 1 else 95), fontsize=9)
     return figure

@@ -101,6 +101,18 @@ def label_fibers(panel, shown, n_fibers):
         panel.legend(title=title, ncol=columns, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
+def label_kymographs(figure, panels, image, quantity, n_fibers):
+    """Labels panels of arclength and time, one for each fiber shown, and their common colours."""
+    shown = len(panels)
+    for fiber, panel in enumerate(panels):
+        panel.set_xlabel("arclength ($L_0$)")
+        panel.xaxis.set_major_locator(plt.MaxNLocator(5 if shown == 1 else 3))
+        if n_fibers > 1:
+            panel.set_title(f"fiber {fiber}" + (f" of {n_fibers}" if shown < n_fibers else ""))
+    panels[0].set_ylabel(TIME_LABEL)
+    figure.colorbar(image, ax=panels, label=f"{quantity} ($1/L_0$)", fraction=0.08, pad=0.03)
+
+
 def save(figure, folder, name, file_format):
     """Writes the whole picture or none. @returns its path"""
     path = os.path.join(folder, f"{name}.{file_format}")

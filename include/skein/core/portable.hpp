@@ -65,6 +65,8 @@ KOKKOS_INLINE_FUNCTION Real inverse_sqrt(const Real x) {
 
 KOKKOS_INLINE_FUNCTION constexpr int smaller(const int a, const int b) { return a < b ? a : b; }
 KOKKOS_INLINE_FUNCTION constexpr int larger(const int a, const int b) { return a > b ? a : b; }
+void smaller(double, double) = delete;  // would be cut to integers
+void larger(double, double) = delete;
 KOKKOS_INLINE_FUNCTION constexpr int ceil_div(const int a, const int b) { return (a + b - 1) / b; }
 
 }  // namespace skein::math
