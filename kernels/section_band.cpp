@@ -7,13 +7,81 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+#include "kernels/simd.hpp"
 
 namespace skein {
 namespace {
 
 using Block = Eigen::Map<Eigen::MatrixXd>;
 using ConstBlock = Eigen::Map<const Eigen::MatrixXd>;
-using Column = Eigen::Map<Eigen::VectorXd>;
+
+constexpr int lanes = simd::width<double>;
+constexpr int packs_at_once = 8;  // of a column, in registers
+
+/// y -= A x for some rows, `n_packs` packs of them, of which the last may be partly padding.
+template <int n_packs>
+void subtract_rows(const float* a, const int stride, const double* x, double* y, const int n_rows,
+                   const int n_columns) {
+  simd::Pack<double> sum[n_packs] = {};
+  for (int column = 0; column < n_columns; ++column) {
+    const float* const from = a + static_cast<std::ptrdiff_t>(column) * stride;
+    const simd::Pack<double> factor = x[column] - simd::Pack<double>{};
+    SKEIN_UNROLL
+    for (int i = 0; i < n_packs; ++i) {
+      simd::HalfPack half;
+      std::memcpy(&half, from + i * lanes, sizeof half);
+      sum[i] += simd::to_double(half) * factor;
+    }
+  }
+  double result[n_packs * lanes];
+  std::memcpy(result, sum, sizeof result);
+  for (int i = 0; i < n_rows; ++i) y[i] -= result[i];
+}
+
+/// y -= A x, A with columns of `stride` floats.
+void subtract_product(const float* a, const int stride, const double* x, double* y, const int size) {
+  for (int row = 0; row < size; row += packs_at_once * lanes) {
+    const int n_rows = std::min(size - row, packs_at_once * lanes);
+    const auto go = [&](const auto n_packs) {
+      subtract_rows<decltype(n_packs)::value>(a + row, stride, x, y + row, n_rows, size);
+    };
+    switch ((n_rows + lanes - 1) / lanes) {
+      case 1:
+        go(std::integral_constant<int, 1>());
+        break;
+      case 2:
+        go(std::integral_constant<int, 2>());
+        break;
+      case 3:
+        go(std::integral_constant<int, 3>());
+        break;
+      case 4:
+        go(std::integral_constant<int, 4>());
+        break;
+      case 5:
+        go(std::integral_constant<int, 5>());
+        break;
+      case 6:
+        go(std::integral_constant<int, 6>());
+        break;
+      case 7:
+        go(std::integral_constant<int, 7>());
+        break;
+      default:
+        go(std::integral_constant<int, 8>());
+    }
+  }
+}
+
+/// x = A x.
+void multiply_in_place(const float* a, const int stride, double* x, const int size) {
+  std::vector<double> result(size, 0.0);
+  subtract_product(a, stride, x, result.data(), size);
+  for (int i = 0; i < size; ++i) x[i] = -result[i];
+}
 
 }  // namespace
 
@@ -21,46 +89,129 @@ SectionBand::SectionBand(const int n_sections, const int block_size, const int h
     : n_sections_(n_sections),
       block_size_(block_size),
       half_width_(std::min(half_width, n_sections - 1)),
-      value_(static_cast<std::size_t>(n_sections) * (2 * half_width_ + 1) * block_size * block_size) {}
+      stride_((block_size + lanes - 1) / lanes * lanes) {
+  middle_begin_ = (n_sections_ - half_width_) / 2;
+  middle_end_ = middle_begin_ + half_width_;
+  end_[0] = {0, 1, middle_begin_};
+  end_[1] = {n_sections_ - 1, -1, n_sections_ - middle_end_};
+}
 
-void SectionBand::set_to_zero() { std::fill(value_.begin(), value_.end(), 0.0); }
+void SectionBand::set_to_zero() {
+  const std::size_t block = static_cast<std::size_t>(block_size_) * block_size_;
+  value_.assign(n_sections_ * (2 * half_width_ + 1) * block, 0.0);
+  of_lower_.assign(half_width_ * half_width_ * block, 0.0);
+}
+
+bool SectionBand::invert_pivot(const int section) {
+  const Block pivot(block(section, section), block_size_, block_size_);
+  const Eigen::MatrixXd inverse = Eigen::PartialPivLU<Eigen::MatrixXd>(pivot).inverse();
+  Block(block(section, section), block_size_, block_size_) = inverse;
+  return inverse.allFinite();
+}
+
+void SectionBand::eliminate(const int s, const int row, const int step) {
+  const int size = block_size_;
+  Block here(block(row, s), size, size);
+  here = (here * ConstBlock(block(s, s), size, size)).eval();
+  for (int i = 1; i <= half_width_; ++i) {
+    const int column = s + i * step;
+    // From the middle onwards sections end where the middle does.
+    if (column < 0 || column >= n_sections_ || (is_in_middle(s) && column >= middle_end_)) break;
+    const bool waits = step < 0 && is_in_middle(row) && is_in_middle(column);
+    double* const place =
+        waits ? &of_lower_[(static_cast<std::size_t>(row - middle_begin_) * half_width_ + (column - middle_begin_)) *
+                           size * size]
+              : block(row, column);
+    Block(place, size, size).noalias() -= here * ConstBlock(block(s, column), size, size);
+  }
+}
 
 bool SectionBand::factorize() {
-  const int size = block_size_;
-  for (int s = 0; s < n_sections_; ++s) {
-    const Block pivot(block(s, s), size, size);
-    Block diagonal(block(s, s), size, size);
-    diagonal = Eigen::PartialPivLU<Eigen::MatrixXd>(pivot).inverse().eval();
-    if (!diagonal.allFinite()) return false;
-    const int last = std::min(s + half_width_, n_sections_ - 1);
-    Kokkos::parallel_for("skein::SectionBand::factorize", Kokkos::RangePolicy<HostSpace>(HostSpace(), s + 1, last + 1),
-                         [=, this](const int row) {
-                           Block below(block(row, s), size, size);
-                           below = (below * ConstBlock(block(s, s), size, size)).eval();
-                           for (int column = s + 1; column <= last; ++column) {
-                             Block target(block(row, column), size, size);
-                             target.noalias() -= below * ConstBlock(block(s, column), size, size);
-                           }
-                         });
+  using Range = Kokkos::RangePolicy<HostSpace>;
+  const std::size_t size = static_cast<std::size_t>(block_size_) * block_size_;
+  int is_regular[2] = {1, 1};
+  // Both ends in step, each step's rows at once.
+  for (int k = 0; k < std::max(end_[0].n_sections, end_[1].n_sections); ++k) {
+    Kokkos::parallel_for("skein::SectionBand::invert_pivot", Range(HostSpace(), 0, 2), [&](const int e) {
+      if (k < end_[e].n_sections && !invert_pivot(end_[e].first + k * end_[e].step)) is_regular[e] = 0;
+    });
+    HostSpace().fence();
+    if (is_regular[0] == 0 || is_regular[1] == 0) return false;
+    Kokkos::parallel_for("skein::SectionBand::eliminate", Range(HostSpace(), 0, 2 * half_width_), [&](const int item) {
+      const End& end = end_[item % 2];
+      const int s = end.first + k * end.step, row = s + (item / 2 + 1) * end.step;
+      if (k < end.n_sections && row >= 0 && row < n_sections_) eliminate(s, row, end.step);
+    });
     HostSpace().fence();
   }
+  for (int row = middle_begin_; row < middle_end_; ++row)
+    for (int column = middle_begin_; column < middle_end_; ++column) {
+      const double* from =
+          &of_lower_[(static_cast<std::size_t>(row - middle_begin_) * half_width_ + (column - middle_begin_)) * size];
+      double* to = block(row, column);
+      for (std::size_t i = 0; i < size; ++i) to[i] += from[i];
+    }
+  for (int s = middle_begin_; s < middle_end_; ++s) {
+    if (!invert_pivot(s)) return false;
+    Kokkos::parallel_for("skein::SectionBand::eliminate_middle", Range(HostSpace(), s + 1, middle_end_),
+                         [&](const int row) { eliminate(s, row, 1); });
+    HostSpace().fence();
+  }
+  round_factors();
+  std::vector<double>().swap(value_);
+  std::vector<double>().swap(of_lower_);
   return true;
 }
 
-void SectionBand::solve(double* x) const {
+void SectionBand::round_factors() {
+  const std::size_t n_columns = value_.size() / block_size_;
+  factor_.assign(n_columns * stride_, 0.0f);
+  for (std::size_t column = 0; column < n_columns; ++column)
+    for (int i = 0; i < block_size_; ++i)
+      factor_[column * stride_ + i] = static_cast<float>(value_[column * block_size_ + i]);
+}
+
+void SectionBand::solve_end(const End& end, const bool is_forward, double* x) const {
   const int size = block_size_;
-  const auto part = [=](const int section) { return Column(x + static_cast<std::size_t>(section) * size, size); };
-  for (int row = 1; row < n_sections_; ++row) {
-    Column target = part(row);
-    for (int s = std::max(0, row - half_width_); s < row; ++s)
-      target.noalias() -= ConstBlock(block(row, s), size, size) * part(s);
+  for (int k = 0; k < end.n_sections; ++k) {
+    const int row = end.first + (is_forward ? k : end.n_sections - 1 - k) * end.step;
+    double* const target = x + static_cast<std::ptrdiff_t>(row) * size;
+    // Forward: what was eliminated before this section; backward: what comes after it, the middle included.
+    const int direction = is_forward ? -end.step : end.step;
+    for (int i = half_width_; i > 0; --i) {
+      const int s = row + i * direction;
+      if (s >= 0 && s < n_sections_)
+        subtract_product(factor(row, s), stride_, x + static_cast<std::ptrdiff_t>(s) * size, target, size);
+    }
+    if (!is_forward) multiply_in_place(factor(row, row), stride_, target, size);
   }
-  for (int row = n_sections_ - 1; row >= 0; --row) {
-    Column target = part(row);
-    for (int s = std::min(row + half_width_, n_sections_ - 1); s > row; --s)
-      target.noalias() -= ConstBlock(block(row, s), size, size) * part(s);
-    target = (ConstBlock(block(row, row), size, size) * target).eval();
+}
+
+void SectionBand::solve_middle(double* x) const {
+  const int size = block_size_;
+  const auto part = [=](const int section) { return x + static_cast<std::ptrdiff_t>(section) * size; };
+  const auto subtract = [&](const int row, const int s) {
+    subtract_product(factor(row, s), stride_, part(s), part(row), size);
+  };
+  for (int row = middle_begin_; row < middle_end_; ++row) {
+    for (int s = std::max(0, row - half_width_); s < row; ++s) subtract(row, s);
+    for (int s = middle_end_; s <= std::min(n_sections_ - 1, row + half_width_); ++s) subtract(row, s);
   }
+  for (int row = middle_end_ - 1; row >= middle_begin_; --row) {
+    for (int s = middle_end_ - 1; s > row; --s) subtract(row, s);
+    multiply_in_place(factor(row, row), stride_, part(row), size);
+  }
+}
+
+void SectionBand::solve(double* x) const {
+  const auto both_ends = [&](const bool is_forward) {
+    Kokkos::parallel_for("skein::SectionBand::solve", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, 2),
+                         [&](const int e) { solve_end(end_[e], is_forward, x); });
+    HostSpace().fence();
+  };
+  both_ends(true);
+  solve_middle(x);
+  both_ends(false);
 }
 
 }  // namespace skein

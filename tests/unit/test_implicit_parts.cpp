@@ -83,7 +83,7 @@ TEST(SpringTangent, IsTheDerivativeOfTheForcesAndSymmetric) {
 TEST(SectionBand, SolvesLikeADenseMatrix) {
   reference::Random random(7);
   for (const int half_width : {0, 1, 3, 20}) {
-    const int n_sections = 9, size = 5, n = n_sections * size;
+    const int n_sections = 9, size = 7, n = n_sections * size;
     SectionBand band(n_sections, size, half_width);
     band.set_to_zero();
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
@@ -99,7 +99,8 @@ TEST(SectionBand, SolvesLikeADenseMatrix) {
     Eigen::VectorXd x = right;
     ASSERT_TRUE(band.factorize());
     band.solve(x.data());
-    EXPECT_LT((dense * x - right).norm(), 1e-13 * right.norm()) << half_width;
+    // Factors are rounded to single precision: 6e-8 each.
+    EXPECT_LT((dense * x - right).norm(), 1e-6 * right.norm()) << half_width;
   }
   SectionBand singular(3, 2, 1);
   singular.set_to_zero();
