@@ -12,9 +12,9 @@ Gmres::Gmres(const int n_nodes, const int max_iterations)
       product_("skein::Gmres::product", static_cast<std::size_t>(n_nodes)) {}
 
 void Gmres::apply(Linearization& a, const double scale, const ConstVectors& v, const Vectors& result) {
-  a.multiply(v, result);
-  combine<ExecSpace>(ExecSpace(), result, {1.0, v}, {-scale, result});
-  a.precondition(result, result);
+  a.precondition(v, product_);
+  a.multiply(product_, result);
+  combine<ExecSpace>(ExecSpace(), result, {1.0, product_}, {-scale, result});
 }
 
 Gmres::Result Gmres::solve(Linearization& a, const double scale, const ConstVectors& b, const Vectors& x,
@@ -30,29 +30,24 @@ Gmres::Result Gmres::solve(Linearization& a, const double scale, const ConstVect
   // The first residual: a guess of zero needs no product.
   const Vectors first = basis(0);
   if (dot_product<ExecSpace>(space, x, x) == 0.0) {
-    a.precondition(b, first);
+    Kokkos::deep_copy(space, first, b);
   } else {
     a.multiply(x, first);
     ++result.iterations;
     combine<ExecSpace>(space, first, {scale, first}, {-1.0, x});
     combine<ExecSpace>(space, first, {1.0, first}, {1.0, b});
-    a.precondition(first, first);
   }
   const double size = std::sqrt(dot_product<ExecSpace>(space, first, first));
   result.residual = size / root_n;
   if (!std::isfinite(size)) return result;
   result.converged = result.residual <= tolerance;
-  if (result.converged) {
-    // Good enough, but what the preconditioner knows better costs nothing, and keeps stiff modes from drifting.
-    combine<ExecSpace>(space, x, {1.0, x}, {1.0, first});
-    return result;
-  }
-  combine<ExecSpace>(space, first, {1.0 / size, first}, {0.0, first});
-
   column_.clear();
   cosine_.clear();
   sine_.clear();
   right_.assign(1, size);
+  if (size == 0.0) return result;
+  combine<ExecSpace>(space, first, {1.0 / size, first}, {0.0, first});
+
   while (!result.converged && static_cast<int>(column_.size()) < max_iterations_) {
     const int k = static_cast<int>(column_.size());
     const Vectors next = basis(k + 1);
@@ -86,18 +81,34 @@ Gmres::Result Gmres::solve(Linearization& a, const double scale, const ConstVect
     result.converged = result.residual <= tolerance;
     if (length > 0.0) combine<ExecSpace>(space, next, {1.0 / length, next}, {0.0, next});
   }
-  add_combination(x, static_cast<int>(column_.size()));
+  add_solution(a, x);
   return result;
 }
 
-void Gmres::add_combination(const Vectors& x, const int n_columns) {
-  std::vector<double> factor(n_columns);
+// x += P^-1 (combination of the basis + residual): the preconditioner is applied once in either case, and what it knows
+// of the residual keeps stiff modes from drifting.
+void Gmres::add_solution(Linearization& a, const Vectors& x) {
+  const int n_columns = static_cast<int>(column_.size());
+  std::vector<double> factor(n_columns + 1);
   for (int row = n_columns - 1; row >= 0; --row) {
     double sum = right_[row];
     for (int column = row + 1; column < n_columns; ++column) sum -= column_[column][row] * factor[column];
     factor[row] = sum / column_[row][row];
   }
-  for (int i = 0; i < n_columns; ++i) combine<ExecSpace>(ExecSpace(), x, {1.0, x}, {factor[i], basis_[i]});
+  // The residual in the basis: the rotations undone.
+  std::vector<double> residual(n_columns + 1);
+  residual[n_columns] = right_[n_columns];
+  for (int i = n_columns - 1; i >= 0; --i) {
+    const double above = residual[i], below = residual[i + 1];
+    residual[i] = cosine_[i] * above - sine_[i] * below;
+    residual[i + 1] = sine_[i] * above + cosine_[i] * below;
+  }
+  const ExecSpace space;
+  combine<ExecSpace>(space, product_, {factor[0] + residual[0], basis_[0]}, {0.0, basis_[0]});
+  for (int i = 1; i <= n_columns; ++i)
+    combine<ExecSpace>(space, product_, {1.0, product_}, {factor[i] + residual[i], basis_[i]});
+  a.precondition(product_, product_);
+  combine<ExecSpace>(space, x, {1.0, x}, {1.0, product_});
 }
 
 }  // namespace skein

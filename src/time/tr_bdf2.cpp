@@ -21,10 +21,10 @@ constexpr double side_weight = 0.25 * std::numbers::sqrt2;  // of both earlier v
 
 constexpr int max_iterations = 60;  // of GMRES
 constexpr int max_newton_steps = 10;
-constexpr double stage_share = 0.02;      // of the error allowed in a step, for a stage's equation
+constexpr double stage_share = 0.05;      // of the error allowed in a step, for a stage's equation
 constexpr double solver_share = 0.5;      // of that, for a linear system
 constexpr double newton_curvature = 5.0;  // rate of Newton's method over correction / node spacing, measured
-constexpr double detail_share = 1e-3;     // of the node spacing, for a stage's equation
+constexpr double detail_share = 3e-3;     // of the node spacing, for a stage's equation
 constexpr double least_error = 0.05;      // over the tolerance
 constexpr double max_scale_ratio = 4.0;   // of the matrix' scale to that of the preconditioner, either way
 
