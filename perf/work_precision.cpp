@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <string>
@@ -56,6 +57,15 @@ Choice read_choice(const int argc, char** argv) {
   return choice;
 }
 
+/// A scene's word for what an integrator calls itself.
+std::string key_of(const std::string& description) {
+  const std::pair<const char*, const char*> names[] = {
+      {"RKC2", "rkc2"}, {"TR-BDF2", "trbdf2"}, {"RK4", "rk4"}, {"Bogacki", "bs3"}, {"forward Euler", "euler"}};
+  for (const auto& [name, key] : names)
+    if (description.starts_with(name)) return key;
+  return "?";
+}
+
 /// A fiber of the length with fewer nodes on a section, and the bending stiffness of the paper's.
 SceneConfig make_scene(const Choice& choice) {
   SceneConfig scene;
@@ -88,11 +98,12 @@ int run(const Choice& choice) {
   std::ofstream out;
   if (!choice.output.empty()) out.open(choice.output, std::ios::binary);
   std::int64_t rejected = 0, samples = 1;
-  double error = 0.0, work = 0.0, last_dt = 1.0;
+  double error = 0.0, reported = 0.0, work = 0.0, last_dt = 1.0;
   bool failed = false;
   const Vectors before("before", state.position.extent(0));
   double speed = 0.0;  // of nodes over the last step, shear rate times length: large where steps only alternate
   const auto start = std::chrono::steady_clock::now();
+  const std::clock_t cpu_start = std::clock();
   try {
     while (state.time < choice.end) {
       Kokkos::deep_copy(before, state.position);
@@ -100,6 +111,7 @@ int run(const Choice& choice) {
       rejected += report.rejected;
       last_dt = report.dt;
       error += report.error;
+      reported += report.local_error / fibers[0].length();
       work += report.stages;
       if (choice.verbose)
         std::printf("step %lld t %.4f dt %.3e error %.3g stages %d radius %.4g rejected %d %s\n",
@@ -121,12 +133,16 @@ int run(const Choice& choice) {
   for (std::size_t i = 0; i < last.size(); ++i) speed = std::max(speed, norm(last[i] - first[i]));
   speed /= last_dt * make_background_flow(scene.flows)->typical_rate() * fibers[0].length();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   std::printf(
-      "method=%s tolerance=%g nodes=%d sections=%d length=%.6g stiffness=%g t=%.6g evaluations=%lld steps=%lld "
-      "rejected=%lld seconds=%.3f mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
-      choice.method.c_str(), choice.tolerance, choice.nodes, fibers[0].config.sections, fibers[0].length(),
-      choice.stiffness, state.time, static_cast<long long>(dynamics.evaluations()), static_cast<long long>(state.step),
-      static_cast<long long>(rejected), seconds, error / static_cast<double>(std::max<std::int64_t>(1, state.step)),
+      "method=%s integrator=%s tolerance=%g nodes=%d sections=%d length=%.6g stiffness=%g t=%.6g evaluations=%lld "
+      "steps=%lld "
+      "rejected=%lld seconds=%.3f cpu=%.3f reported=%.4g mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
+      choice.method.c_str(), key_of(integrator->describe()).c_str(), choice.tolerance, choice.nodes,
+      fibers[0].config.sections, fibers[0].length(), choice.stiffness, state.time,
+      static_cast<long long>(dynamics.evaluations()), static_cast<long long>(state.step),
+      static_cast<long long>(rejected), seconds, cpu_seconds, reported,
+      error / static_cast<double>(std::max<std::int64_t>(1, state.step)),
       work / static_cast<double>(std::max<std::int64_t>(1, state.step)), speed);
   return failed ? 76 : 0;
 }

@@ -182,6 +182,7 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
   ++state.step;
   Kokkos::deep_copy(ExecSpace(), state.position, end_);
   report.dt = dt;
+  report.local_error = report.error * allowed_error(dt);
   report.spectral_radius = spectral_radius();
   return report;
 }

@@ -62,6 +62,10 @@ void TrBdf2::bring_memory_back() {
   number_made_ = -1;
 }
 
+double TrBdf2::largest_step() const {
+  return std::min(ControlledIntegrator::largest_step(), largest_step_ratio * options_.time_scale);
+}
+
 void TrBdf2::factorize(const double scale) {
   if (!linearization_.factorize(factorized_position_, scale))
     throw Error(ExitCode::numerical, "the preconditioner of the implicit step is singular");

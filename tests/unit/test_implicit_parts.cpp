@@ -223,14 +223,43 @@ TEST(FiberLinearization, PreconditionsWellAndTurnsWithTheFibers) {
   EXPECT_LT(size_of(shifted(to_host(ConstVectors(result)), -1.0, expected)), 1e-10 * size_of(expected));
 }
 
-TEST(MethodSelection, FollowsTheStiffness) {
+ControlOptions make_options(const double tolerance) {
   ControlOptions options;
-  options.tolerance = 1e-3;
+  options.tolerance = tolerance;
   options.time_scale = 0.4;
+  options.max_step = 0.5;
+  return options;
+}
+
+TEST(MethodSelection, FollowsTheStiffness) {
+  const ControlOptions options = make_options(1e-3);
   EXPECT_EQ(select_method(options, 1e2, 60.0, 0.5).method, "rkc2");
   EXPECT_EQ(select_method(options, 1e6, 60.0, 0.5).method, "trbdf2");
   EXPECT_EQ(select_method(options, 1e6, 0.0, -1.0).method, "rkc2");  // nothing implicit to choose
   EXPECT_NE(select_method(options, 1e6, 60.0, 0.5).reason.find("1e+06"), std::string::npos);
+}
+
+// Where the other method was measured to take more than 1.5 times the processor time.
+TEST(MethodSelection, AgreesWithWhatWasMeasured) {
+  struct Row {
+    double length, spacing, spectral_radius, tolerance;
+    double factorization, preconditioning;  // in evaluations
+    const char* method;
+  };
+  const double s6 = 0.005, s18 = 0.00173648;
+  const Row rows[] = {{0.14, s6, 1509.0, 1e-4, 59.0, 2.1, "rkc2"},     {0.14, s6, 1509.0, 1e-6, 59.0, 2.1, "rkc2"},
+                      {0.195, s6, 1509.0, 1e-2, 43.0, 1.5, "rkc2"},    {0.195, s6, 1509.0, 1e-6, 43.0, 1.5, "rkc2"},
+                      {0.14, s6, 1.5e5, 1e-2, 59.0, 2.1, "trbdf2"},    {0.14, s6, 1.5e5, 1e-6, 59.0, 2.1, "trbdf2"},
+                      {0.139, s18, 10935.0, 1e-2, 62.0, 0.73, "rkc2"}, {0.139, s18, 1.1e5, 1e-3, 62.0, 0.73, "trbdf2"},
+                      {0.139, s18, 1.1e5, 1e-5, 62.0, 0.73, "trbdf2"}, {0.139, s18, 1.1e6, 1e-2, 62.0, 0.73, "trbdf2"},
+                      {0.139, s18, 1.1e6, 1e-5, 62.0, 0.73, "trbdf2"}};
+  for (const Row& row : rows) {
+    ControlOptions options = make_options(row.tolerance);
+    options.length_scale = row.length;
+    options.detail_scale = row.spacing;
+    const auto selection = select_method(options, row.spectral_radius, row.factorization, row.preconditioning);
+    EXPECT_EQ(selection.method, row.method) << row.length << ", " << row.tolerance << ": " << selection.reason;
+  }
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 
 namespace skein {
 
-/// Solves (I - scale A) x = b, preconditioned from the right, by GMRES without restarts and with dot products in a fixed
-/// order. The residual judged is that of the equation itself: with 18 nodes on a section, the preconditioner hides
-/// residuals of a ring's breathing by up to a factor of 600, and steps would go on from what is no solution.
+/// Solves (I - scale A) x = b, preconditioned from the right, by GMRES without restarts and with dot products in a
+/// fixed order. The residual judged is that of the equation itself: with 18 nodes on a section, the preconditioner
+/// hides residuals of a ring's breathing by up to a factor of 600, and steps would go on from what is no solution.
 /// Source: Saad, Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986).
 class Gmres {
  public:

@@ -19,6 +19,7 @@ struct State {
 struct StepReport {
   double dt = 0.0;               ///< time advanced
   double error = 0.0;            ///< estimated local error over tolerance; 0 where the method has no estimate
+  double local_error = 0.0;      ///< that error, root mean square over nodes, length
   double spectral_radius = 0.0;  ///< estimate in use, 1 / time; 0 where none is made
   int stages = 1;
   int rejected = 0;       ///< attempts thrown away before this step
