@@ -3,7 +3,6 @@
 
 #include <skein/core/runtime.hpp>
 #include <skein/hydro/direct_mobility.hpp>
-#include <skein/scene/calibration.hpp>
 #include <skein/time/fiber_dynamics.hpp>
 #include <skein/time/make_integrator.hpp>
 
@@ -16,7 +15,7 @@
 #include <map>
 #include <string>
 
-#include "perf/harness.hpp"
+#include "perf/orbit_scene.hpp"
 
 namespace skein::perf {
 namespace {
@@ -66,19 +65,8 @@ std::string key_of(const std::string& description) {
   return "?";
 }
 
-/// A fiber of the length with fewer nodes on a section, and the bending stiffness of the paper's.
 SceneConfig make_scene(const Choice& choice) {
-  SceneConfig scene;
-  FiberConfig paper, fiber;
-  fiber.nodes_per_section = choice.nodes;
-  fiber.sections =
-      std::max(3, static_cast<int>(std::lround(choice.length / (2.0 * fiber.radius * std::sin(M_PI / choice.nodes)))));
-  if (choice.sections > 0) fiber.sections = choice.sections;
-  const double wanted = measure_beam_stiffness(make_fibers({paper}).front()).infinite_bending;
-  const double found = measure_beam_stiffness(make_fibers({fiber}).front()).infinite_bending;
-  fiber.spring_stiffness *= choice.stiffness * wanted / found;
-  fiber.blob *= choice.blob;
-  scene.fibers = {fiber};
+  SceneConfig scene = make_orbit_scene({choice.length, choice.nodes, choice.sections, choice.stiffness, choice.blob});
   scene.time.method = choice.method;
   scene.time.tolerance = choice.tolerance;
   scene.time.step = choice.step;

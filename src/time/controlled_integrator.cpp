@@ -148,6 +148,7 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
     const Attempt result = attempt(state.time, dt);
     report.stages = result.stages;
     report.error = result.error;
+    report.local_error = result.error / result.excess * allowed_error(dt);
     std::string fault;
     if (!result.failure.empty()) {
       if (!std::isfinite(result.error)) fault = find_velocity_fault(end_, end_velocity_);
@@ -182,7 +183,6 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
   ++state.step;
   Kokkos::deep_copy(ExecSpace(), state.position, end_);
   report.dt = dt;
-  report.local_error = report.error * allowed_error(dt);
   report.spectral_radius = spectral_radius();
   return report;
 }

@@ -168,7 +168,9 @@ ControlledIntegrator::Attempt TrBdf2::attempt(const double time, const double dt
   combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {2.0 / 3.0 * diagonal * dt, end_velocity_});
   linearization_.precondition(scratch_, scratch_);
   // Not below what the stages' equations were left with, or the controller would take luck for a trend.
-  result.error = std::max(measure_error(scratch_, dt), least_error);
+  const double error = measure_error(scratch_, dt);
+  result.error = std::max(error, least_error);
+  if (error > 0.0) result.excess = result.error / error;
 
   combine<ExecSpace>(space, next_acceleration_, {1.0 / dt, end_velocity_}, {-1.0 / dt, start_velocity_});
   is_next_ready_ = true;
