@@ -35,7 +35,8 @@ std::string describe_cost(const CostCard& card) {
   text += fmt::format("  rest              {:6.2f} %\n", share(std::max(other, 0.0)));
   text += fmt::format("  error: {}; velocities: {}",
                       card.largest_error > 0.0
-                          ? fmt::format("at most {:.2g} of the tolerance in a step", card.largest_error)
+                          ? fmt::format("at most {:.2g} of the tolerance in a step, {:.2g} L estimated in all",
+                                        card.largest_error, card.estimated_error)
                           : std::string("not estimated by this integrator"),
                       card.mobility);
   if (card.direct_seconds > 0.0)

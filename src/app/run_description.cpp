@@ -4,6 +4,7 @@
 #include <skein/model/background_flow.hpp>
 #include <skein/scene/calibration.hpp>
 #include <skein/scene/spring_network.hpp>
+#include <skein/time/rkc2.hpp>
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ double expect_evaluations(const SceneConfig& scene, const double spectral_radius
                         : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
   if (scene.time.method == "rk4" || scene.time.method == "bs3")
     return 4.0 * end * std::max(1.0 / dt, spectral_radius / 2.5);
-  return end / dt * (1.0 + std::sqrt(1.0 + 1.54 * dt * 1.2 * spectral_radius));
+  return end / dt * Rkc2::stages_for(dt, Rkc2::spectral_margin * spectral_radius);
 }
 
 /// Of a fiber's springs, force.

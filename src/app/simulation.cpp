@@ -68,6 +68,7 @@ void Simulation::Counters::visit_memory(MemoryVisitor& visitor) {
   visitor.integer("run.next_frame", next_frame);
   visitor.number("run.pairs", pairs);
   visitor.number("run.seconds", seconds);
+  visitor.number("run.estimated_error", estimated_error);
 }
 
 void Simulation::restore(const Checkpoint& checkpoint) {
@@ -222,6 +223,7 @@ StepReport Simulation::advance() {
 void Simulation::count(const StepReport& report) {
   counters_.evaluations = counters_at_start_.evaluations + dynamics_.evaluations() - spare_evaluations_;
   counters_.pairs = counters_at_start_.pairs + dynamics_.mobility().pairs() - spare_pairs_;
+  counters_.estimated_error += report.local_error;
   largest_error_ = std::max(largest_error_, report.error);
   for (const std::string& message : dynamics_.take_messages()) {
     say(fmt::format("t = {:.6g}: {}", state_.time, message));
@@ -262,6 +264,7 @@ void Simulation::report_end(const ExitCode code) {
                         {"evaluations", counters_.evaluations},
                         {"rejected", counters_.rejected},
                         {"pairs", counters_.pairs},
+                        {"estimated_error", counters_.estimated_error},
                         {"velocity_error", card.velocity_errors.largest},
                         {"checks", card.velocity_errors.n_checks},
                         {"misses", card.velocity_errors.n_misses},
@@ -292,6 +295,7 @@ CostCard Simulation::make_cost_card() const {
   card.output = trajectory_.seconds_spent() + frame_seconds_ + checkpoint_seconds_;
   card.megabytes = 1e-6 * static_cast<double>(trajectory_.bytes_written() + checkpoint_bytes_);
   card.largest_error = largest_error_;
+  card.estimated_error = counters_.estimated_error / largest_length(fibers_);
   card.mobility = dynamics_.mobility().describe();
   card.velocity_errors = dynamics_.mobility().error_record();
   card.direct_seconds = direct_seconds_ * static_cast<double>(card.evaluations);
@@ -340,6 +344,7 @@ void Simulation::note_regimes(const Frame& frame) {
 void Simulation::record_step(const StepReport& report) {
   StepRecord record = make_step_record(fibers_, dynamics_.springs(), state_, report);
   record.evaluations = counters_.evaluations;
+  record.estimated_error = counters_.estimated_error;
   const ErrorRecord errors = dynamics_.mobility().error_record();
   record.velocity_error = errors.last;
   record.fmm_order = errors.order;

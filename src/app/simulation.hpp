@@ -46,6 +46,7 @@ class Simulation {
   struct Counters {
     std::int64_t evaluations = 0, rejected = 0, next_frame = 0;
     double pairs = 0.0, seconds = 0.0;
+    double estimated_error = 0.0;  ///< sum of the steps' estimates, root mean square over nodes, length
     void visit_memory(MemoryVisitor& visitor);
   };
 

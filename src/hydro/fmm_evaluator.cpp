@@ -1,29 +1,27 @@
 #include "fmm_evaluator.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/core/stopwatch.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 #include <utility>
 
 namespace skein {
 namespace {
 
-class Stopwatch {
+/// Seconds since the lap before.
+class LapTimer {
  public:
   double lap() {
-    const double now = seconds();
-    return now - std::exchange(start_, now);
+    const auto since = std::exchange(start_, WallClock::now());
+    return std::chrono::duration<double>(start_ - since).count();
   }
 
  private:
-  static double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  }
-  double start_ = seconds();
+  WallClock::time_point start_ = WallClock::now();
 };
 
 void resize(HostVectors& array, const int n, const char* label) {
@@ -69,7 +67,7 @@ void FmmEvaluator::sort_nodes(const HostNodes& nodes, const double scale) {
 template <class Real, class Field>
 void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
                         Coefficients<Real>& coefficients, const HostVectors& velocity) {
-  Stopwatch watch;
+  LapTimer watch;
   coefficients.stride = 0;
   for (const auto* level : levels)
     if (level != nullptr) coefficients.stride = math::larger(coefficients.stride, level->rank_padded);
@@ -99,7 +97,7 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
 template <class Real>
 void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, const double blob, OperatorStore<Real>& store,
                           Coefficients<Real>& coefficients, const HostVectors& velocity) {
-  Stopwatch watch;
+  LapTimer watch;
   const auto levels = store.require(options.far_field, plan, blob, tree_);
   statistics.operators_seconds = watch.lap();
   if (options.far_field == FarField::harmonic)
@@ -140,7 +138,7 @@ double FmmEvaluator::node_bytes() const {
 
 bool FmmEvaluator::add(const FmmOptions& options, FmmPlan plan, const double viscosity, const HostNodes& nodes,
                        const HostVectors& velocity) {
-  Stopwatch watch;
+  LapTimer watch;
   OctreeRules rules;
   rules.leaf_size = plan.leaf_size;
   rules.min_half_width = plan.min_half_width;

@@ -147,6 +147,7 @@ Series make_step_series(const TrajectoryLayout& layout) {
            {"/observables/smallest_gap", Number::float64, {}, "length"},
            {"/observables/dt", Number::float64, {}, "time"},
            {"/observables/error", Number::float64, {}, ""},
+           {"/observables/estimated_error", Number::float64, {}, "length"},
            {"/observables/spectral_radius", Number::float64, {}, "1/time"},
            {"/observables/evaluations", Number::int64, {}, ""},
            {"/observables/velocity_error", Number::float64, {}, ""},
@@ -161,7 +162,7 @@ void append(Series& series, const StepRecord& record) {
   series.append(record.step, record.time,
                 {record.energy, record.length, record.curvature_max, record.symmetry_defect, record.out_of_plane,
                  as_doubles(record.end_to_end), one(record.smallest_gap), one(record.dt), one(record.error),
-                 one(record.spectral_radius), one(evaluations), one(record.velocity_error), one(order), one(misses)});
+                 one(record.estimated_error), one(record.spectral_radius), one(evaluations), one(record.velocity_error), one(order), one(misses)});
 }
 
 }  // namespace skein

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <skein/core/error.hpp>
@@ -52,6 +53,12 @@ int count_sections(const std::vector<Fiber>& fibers) {
   int n_sections = 0;
   for (const Fiber& fiber : fibers) n_sections += fiber.config.sections;
   return n_sections;
+}
+
+double largest_length(const std::vector<Fiber>& fibers) {
+  double length = 0.0;
+  for (const Fiber& fiber : fibers) length = std::max(length, fiber.length());
+  return length;
 }
 
 std::vector<Vec3> make_surface_nodes(const std::vector<Fiber>& fibers, const std::uint64_t seed) {

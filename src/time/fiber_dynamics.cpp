@@ -31,19 +31,19 @@ double wait_and_look() {
 }
 
 /// Times the two parts of an evaluation, once the device is idle; on a device only one evaluation in many.
-class Stopwatch {
+class PartsTimer {
  public:
-  Stopwatch(const std::int64_t evaluation, FiberDynamics::Seconds& seconds)
+  PartsTimer(const std::int64_t evaluation, FiberDynamics::Seconds& seconds)
       : timed_(evaluation % evaluations_per_timing == 0), seconds_(seconds), start_(timed_ ? wait_and_look() : 0.0) {}
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
+  PartsTimer(const PartsTimer&) = delete;
+  PartsTimer& operator=(const PartsTimer&) = delete;
 
   void begin_fluid() {
     if (!timed_) return;
     fluid_start_ = wait_and_look();
     seconds_.springs_and_flow += evaluations_per_timing * (fluid_start_ - start_);
   }
-  ~Stopwatch() {
+  ~PartsTimer() {
     if (timed_ && fluid_start_ > 0.0) seconds_.fluid += evaluations_per_timing * (wait_and_look() - fluid_start_);
   }
 
@@ -66,19 +66,19 @@ FiberDynamics::FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<S
       force_("skein::FiberDynamics::force", static_cast<std::size_t>(count_nodes(fibers))) {}
 
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
-  Stopwatch stopwatch(evaluations_++, seconds_);
+  PartsTimer timer(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
   flow_->add_velocity(time, position, velocity);
   springs_->compute_forces(position, force_);
-  stopwatch.begin_fluid();
+  timer.begin_fluid();
   mobility_->add_velocity({position, force_, blob_}, position, velocity);
 }
 
 void FiberDynamics::multiply(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result) {
-  Stopwatch stopwatch(evaluations_++, seconds_);
+  PartsTimer timer(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), result, 0.0);
   springs_->compute_force_changes(position, displacement, force_);
-  stopwatch.begin_fluid();
+  timer.begin_fluid();
   mobility_->add_velocity({position, force_, blob_}, position, result);
 }
 

@@ -55,11 +55,9 @@ MethodSelection select(const Rkc2Options& options, const std::vector<Fiber>& fib
 std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std::vector<Fiber>& fibers,
                                             RightHandSide& rhs) {
   const int n_nodes = count_nodes(fibers);
-  double length = 0.0, spacing = fibers.front().spacing();
-  for (const Fiber& fiber : fibers) {
-    length = std::max(length, fiber.length());
-    spacing = std::min(spacing, fiber.spacing());
-  }
+  const double length = largest_length(fibers);
+  double spacing = fibers.front().spacing();
+  for (const Fiber& fiber : fibers) spacing = std::min(spacing, fiber.spacing());
   if (scene.time.method == "euler") return std::make_unique<Euler>(rhs, scene.time.step, length, n_nodes);
   const Rkc2Options options = make_options(scene, length, spacing);
   if (scene.time.method != "auto") return make_controlled(scene.time.method, options, rhs, n_nodes);

@@ -15,7 +15,6 @@ namespace {
 // All measured, by processor time, on the L = 0.139, 0.196 and 0.523 orbits with 6 and 18 nodes on a section, springs
 // 1, 10 and 100 times as stiff as the paper's and tolerances of 1e-2 to 1e-6; perf/plot_work_precision.py repeats it.
 // The choice made took at most 1.4 times the other's time with the paper's springs.
-constexpr double rkc2_margin = 1.2;        // of its spectral radius
 constexpr double rkc2_step_share = 0.5;    // mean step over the largest one
 constexpr double rkc2_radius_share = 0.4;  // evaluations a step for the spectral radius
 constexpr double implicit_step_share = 0.7;
@@ -38,7 +37,7 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
   const bool is_fixed = options.fixed_step > 0.0;
   const double largest = largest_controlled_step(options);
   const double dt = is_fixed ? options.fixed_step : rkc2_step_share * largest;
-  const double stages = Rkc2::stages_for(dt, rkc2_margin * spectral_radius);
+  const double stages = Rkc2::stages_for(dt, Rkc2::spectral_margin * spectral_radius);
   const std::string stiffness = fmt::format(
       "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
       spectral_radius, spectral_radius * options.time_scale, dt, stages);

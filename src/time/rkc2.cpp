@@ -12,7 +12,6 @@
 namespace skein {
 namespace {
 
-constexpr double spectral_margin = 1.2;  // sections that ovalize blow up within 20 steps of an underestimate
 constexpr int steps_between_refreshes = 25;
 constexpr double refresh_accuracy = 0.02;
 constexpr int first_iterations = 60;

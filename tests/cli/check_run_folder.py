@@ -18,7 +18,7 @@ NO_DIMENSION = {"/observables/error/value", "/observables/evaluations/value", "/
                 "/observables/velocity_error/value", "/observables/fmm_order/value", "/observables/fmm_misses/value",
                 "/parameters/elasto_viscous_number"}
 PER_FIBER = ("energy", "length", "curvature_max", "symmetry_defect", "out_of_plane", "end_to_end")
-PER_STEP = ("smallest_gap", "dt", "error", "spectral_radius", "evaluations", "velocity_error", "fmm_order", "fmm_misses")
+PER_STEP = ("smallest_gap", "dt", "error", "estimated_error", "spectral_radius", "evaluations", "velocity_error", "fmm_order", "fmm_misses")
 
 
 def check(condition, message):
@@ -83,6 +83,9 @@ def check_index(index):
     for name in PER_STEP:
         check_series(index, f"observables/{name}", n_steps, (), infinite_allowed=name == "smallest_gap",
                      nan_allowed=name == "velocity_error")  # where none was measured
+    # The sum grows where a step has an estimate, and nowhere else.
+    growth = np.diff(index["observables/estimated_error/value"][...], prepend=0.0)
+    check(np.array_equal(growth > 0, index["observables/error/value"][...] > 0), "estimated_error is no sum of estimates")
 
     # The centreline is made of the section's centroids, and nodes lie about a radius from it.
     centroids, distances, radii = [], [], []

@@ -63,6 +63,7 @@ inline StepRecord make_synthetic_record(const int step) {
   record.time = 0.005 * step;
   record.dt = 0.005;
   record.error = 0.3;
+  record.estimated_error = 2e-7 * (step + 1);
   record.spectral_radius = 1.1e4;
   record.evaluations = 12 * step;
   record.smallest_gap = 0.21;

@@ -28,6 +28,7 @@ struct StepRecord {
   double time = 0.0;
   double dt = 0.0;
   double error = 0.0;            ///< estimated local error over tolerance
+  double estimated_error = 0.0;  ///< sum of the estimated local errors, root mean square over nodes, length
   double spectral_radius = 0.0;  ///< 1 / time
   std::int64_t evaluations = 0;  ///< of the right-hand side, since the start of the run
   double velocity_error = std::numeric_limits<double>::quiet_NaN();  ///< last one measured, relative; see ErrorRecord

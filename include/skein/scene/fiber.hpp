@@ -26,6 +26,8 @@ std::vector<Fiber> make_fibers(const std::vector<FiberConfig>& configs);
 
 int count_nodes(const std::vector<Fiber>& fibers);
 int count_sections(const std::vector<Fiber>& fibers);
+/// Of the longest: the unit of errors. @returns length
+double largest_length(const std::vector<Fiber>& fibers);
 
 /// Nodes at the start. Straight fibers: node a of section s at angle 2 pi a / N_c on the circle of radius R about
 /// center + (s - (N_f - 1)/2) spacing direction. Angle 0 points along y for a fiber along x with roll 0. Bent ones: the
