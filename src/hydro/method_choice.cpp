@@ -60,8 +60,19 @@ Rows rows_of(const FarField far_field) {
   return stokeslet_rows;
 }
 
-/// Of the tolerance, that blobs may use up; the order's own error is seldom as large as its bound.
-constexpr double blob_share = 0.5;
+/// The cheapest row that meets the tolerance, of this order or more.
+const Row* find_row(const FmmOptions& options, const int least_order) {
+  const Rows rows = rows_of(options.far_field);
+  const Row* row = &rows.front();
+  while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+  return row;
+}
+
+/// Of the tolerance, that blobs may use up: what the order leaves, or half of it, because the order's own error is
+/// seldom as large as its bound.
+double blob_share(const FmmOptions& options) {
+  return std::max(0.5, 1.0 - find_row(options, options.order)->error / options.tolerance);
+}
 
 /// Of an order's error, that the transfers may lose by being taken apart.
 constexpr double transfer_share = 0.01;
@@ -77,7 +88,7 @@ double least_error(const FmmOptions& options) {
 }  // namespace
 
 double smallest_half_width(const FmmOptions& options, const double max_blob) {
-  return max_blob * std::pow(floor_factor(options) / (blob_share * options.tolerance), 0.25);
+  return max_blob * std::pow(floor_factor(options) / (blob_share(options) * options.tolerance), 0.25);
 }
 
 double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
@@ -127,14 +138,8 @@ void check_fmm_options(const FmmOptions& options) {
 
 FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const int raised_order) {
   check_fmm_options(options);
-  const Rows rows = rows_of(options.far_field);
-  const auto find_row = [&](const int least_order) {
-    const Row* row = &rows.front();
-    while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
-    return row;
-  };
-  const Row* const planned = find_row(options.order);
-  const Row* const row = find_row(math::larger(options.order, raised_order));
+  const Row* const planned = find_row(options, options.order);
+  const Row* const row = find_row(options, math::larger(options.order, raised_order));
   const int n_raises = row->order - planned->order;
 
   FmmPlan plan;
