@@ -144,18 +144,20 @@ std::vector<TargetTask> make_target_tasks(const Octree& tree) {
 template <class Near, class Real, class Field>
 void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Field& field,
                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
-                         const std::vector<TargetTask>& tasks, const HostVectors& velocity) {
+                         const NearField& near, const std::vector<TargetTask>& tasks, const HostVectors& velocity) {
   const auto add = [&](const int t) {
     const TargetTask task = tasks[static_cast<std::size_t>(t)];
     const int b = tree.target_leaves()[static_cast<std::size_t>(task.leaf)];
     const Box& box = box_of(tree, b);
     const Vec3 center = tree.center(box);
     LeafSum sum = {};
-    {
+    if (near.velocity.extent(0) > 0)
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < task.targets.count; ++i) sum.velocity[c][i] = near.velocity(task.targets.first + i, c);
+    if (near.sources.size(task.leaf) > 0) {
       LeafTargets<Near> targets;
       targets.load(nodes.target, task.targets, center, 1.0);
-      add_near_field<Near>(nodes, tree.near_sources().begin(task.leaf), tree.near_sources().end(task.leaf), center,
-                           targets, sum);
+      add_near_field<Near>(nodes, near.sources.begin(task.leaf), near.sources.end(task.leaf), center, targets, sum);
     }
     const bool has_far = box.level >= first_far_level;
     if (has_far || tree.fine_sources().size(task.leaf) > 0) {
@@ -193,7 +195,7 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
 #define SKEIN_INSTANTIATE(Near, Real, Field)                                                         \
   template void add_leaf_velocities<Near, Real, Field>(                                              \
       const Octree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
-      const Coefficients<Real>&, const std::vector<TargetTask>&, const HostVectors&);
+      const Coefficients<Real>&, const NearField&, const std::vector<TargetTask>&, const HostVectors&);
 #define SKEIN_INSTANTIATE_FIELD(Field)     \
   SKEIN_INSTANTIATE(double, double, Field) \
   SKEIN_INSTANTIATE(double, float, Field)  \

@@ -20,6 +20,25 @@ struct PaddedMatrix {
   }
 };
 
+/// A matrix, or two thin ones whose product is the matrix to within a tolerance, where that takes less work.
+template <class Real>
+struct FactoredMatrix {
+  PaddedMatrix<Real> last, first;  ///< last (first B); only `last` where it is the whole matrix
+
+  bool empty() const { return last.empty(); }
+  /// Numbers between the two products, per column of B.
+  int middle_stride() const { return first.n_rows; }
+  /// C = A B; @param middle  [middle_stride, n]
+  void apply(const Real* b, const int b_stride, const int n, Real* middle, Real* c, const int c_stride) const {
+    if (first.empty()) {
+      last.apply(b, b_stride, n, c, c_stride);
+      return;
+    }
+    first.apply(b, b_stride, n, middle, first.n_rows);
+    last.apply(middle, first.n_rows, n, c, c_stride);
+  }
+};
+
 inline constexpr double inner_surface = 1.05;  ///< half-widths: sources' equivalent surface, targets' check surface
 inline constexpr double outer_surface = 2.95;  ///< sources' check surface, targets' equivalent surface
 
@@ -46,7 +65,7 @@ struct OperatorSet {
   PaddedMatrix<Real> target_density;  ///< coefficients for targets -> densities on the outer surface
   PaddedMatrix<Real> to_parent;       ///< from the child at the upper side of all axes (its own operator set's rank)
   PaddedMatrix<Real> to_child;        ///< to that child
-  PaddedMatrix<Real> transfer[n_transfers];                     ///< built when first met
+  FactoredMatrix<Real> transfer[n_transfers];                   ///< built when first met
   Kokkos::View<Real* [8], Kokkos::LayoutLeft, HostSpace> sign;  ///< [rank_padded, reflected axes], +1 or -1
 };
 

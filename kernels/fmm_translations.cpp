@@ -125,6 +125,7 @@ class PairBatch {
       : stride_(padded<Real>(depth)),
         out_stride_(n_rows),
         in_(stride_ * columns_at_once),
+        middle_(stride_ * columns_at_once),
         out_(out_stride_ * columns_at_once) {}
 
   static constexpr int capacity = columns_at_once / Field::n_columns;
@@ -141,15 +142,24 @@ class PairBatch {
   void apply(const PaddedMatrix<Real>& matrix, const int to_stride) {
     if (n_pairs_ == 0) return;
     matrix.apply(in_.get(), stride_, n_pairs_ * Field::n_columns, out_.get(), out_stride_);
+    scatter_all(matrix.n_rows, to_stride);
+  }
+  void apply(const FactoredMatrix<Real>& matrix, const int to_stride) {
+    if (n_pairs_ == 0) return;
+    matrix.apply(in_.get(), stride_, n_pairs_ * Field::n_columns, middle_.get(), out_.get(), out_stride_);
+    scatter_all(matrix.last.n_rows, to_stride);
+  }
+
+ private:
+  void scatter_all(const int n_rows, const int to_stride) {
     for (int k = 0; k < n_pairs_; ++k)
-      scatter<Field>(out_.get() + k * Field::n_columns * out_stride_, out_stride_, matrix.n_rows, sign_out_[k], to_[k],
+      scatter<Field>(out_.get() + k * Field::n_columns * out_stride_, out_stride_, n_rows, sign_out_[k], to_[k],
                      to_stride);
     n_pairs_ = 0;
   }
 
- private:
   int stride_, out_stride_;
-  HostScratch<Real> in_, out_;
+  HostScratch<Real> in_, middle_, out_;  ///< a factored matrix is never thicker in the middle
   Real* to_[capacity];
   const Real* sign_out_[capacity];
   int n_pairs_ = 0;

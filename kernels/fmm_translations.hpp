@@ -44,10 +44,16 @@ template <class Real, class Field>
 void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
                           const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients);
 
+/// The near field of the leaves' targets: what is there already, and what is still to be summed.
+struct NearField {
+  const ListOfLists<Run>& sources;  ///< per target leaf
+  HostVectors velocity;             ///< [n_targets, 3] in the order of the tree, or empty
+};
+
 /// velocity(original index) += near field + far field of the coefficients, leaf by leaf.
 template <class Near, class Real, class Field>
 void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Field& field,
                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
-                         const std::vector<TargetTask>& tasks, const HostVectors& velocity);
+                         const NearField& near, const std::vector<TargetTask>& tasks, const HostVectors& velocity);
 
 }  // namespace skein

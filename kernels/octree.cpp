@@ -125,7 +125,8 @@ double Octree::bytes() const {
                          (same_nodes_ ? 0.0 : static_cast<double>(target_order_.size())) +
                          static_cast<double>(spare_order_.size());
   return 12.0 * n_nodes + static_cast<double>(boxes_.capacity() * sizeof(Box)) + of_list(touching_) + of_list(near_) +
-         of_list(fine_) + of_list(coarse_) + of_list(coarse_direct_) + of_list(far_);
+         of_list(one_way_) + of_list(partners_) + of_list(fine_) + of_list(coarse_) + of_list(coarse_direct_) +
+         of_list(far_);
 }
 
 void Octree::choose_cube(const Nodes& source, const Nodes& target, const OctreeRules& rules) {
@@ -284,6 +285,8 @@ void Octree::build_lists(const OctreeRules& rules) {
   coarse_.clear();
   coarse_direct_.clear();
   near_.clear();
+  one_way_.clear();
+  partners_.clear();
   fine_.clear();
   target_leaves_.clear();
   transfers_met_ = 0;
@@ -327,6 +330,22 @@ void Octree::build_lists(const OctreeRules& rules) {
     const Box& box = boxes_[static_cast<std::size_t>(b)];
     if (box.is_leaf() && box.targets.count > 0) add_leaf_lists(b, rules, stack);
   }
+  std::vector<int> place(boxes_.size());  // of leaves among those with targets
+  for (std::size_t leaf = 0; leaf < target_leaves_.size(); ++leaf)
+    place[static_cast<std::size_t>(target_leaves_[leaf])] = static_cast<int>(leaf);
+  for (int& partner : partners_.entries) partner = place[static_cast<std::size_t>(partner)];
+}
+
+/// Leaves that do not touch meet across W and X lists, where both are leaves in both directions or in none: a small box
+/// that is not a leaf gets an expansion from those it sends sources to.
+void Octree::add_near(const int leaf, const int other) {
+  const Box& box = boxes_[static_cast<std::size_t>(other)];
+  near_.entries.push_back(box.sources);
+  if (!same_nodes_) return;
+  if (!box.is_leaf())
+    one_way_.entries.push_back(box.sources);
+  else if (other >= leaf)
+    partners_.entries.push_back(other);
 }
 
 /// U and W: down from every box that touches the leaf.
@@ -339,17 +358,16 @@ void Octree::add_leaf_lists(const int leaf, const OctreeRules& rules, std::vecto
     if (other.sources.count == 0) continue;
     if (!touch(box, other)) {
       if (other.sources.count < rules.min_sources_for_expansion)
-        near_.entries.push_back(other.sources);
+        add_near(leaf, stack[k]);
       else
         fine_.entries.push_back(stack[k]);
     } else if (other.is_leaf()) {
-      near_.entries.push_back(other.sources);
+      add_near(leaf, stack[k]);
     } else {
       for (int i = 0; i < other.n_children; ++i) stack.push_back(other.first_child + i);
     }
   }
-  for (const int* a = coarse_direct_.begin(leaf); a != coarse_direct_.end(leaf); ++a)
-    near_.entries.push_back(boxes_[static_cast<std::size_t>(*a)].sources);
+  for (const int* a = coarse_direct_.begin(leaf); a != coarse_direct_.end(leaf); ++a) add_near(leaf, *a);
   std::sort(near_.entries.begin() + first_run, near_.entries.end(),
             [](const Run a, const Run b) { return a.first < b.first; });
   // Neighbours in the order of the tree become one run.
@@ -362,6 +380,8 @@ void Octree::add_leaf_lists(const int leaf, const OctreeRules& rules, std::vecto
   }
   if (near_.entries.size() > static_cast<std::size_t>(first_run)) near_.entries.resize(last + 1);
   near_.end_list();
+  one_way_.end_list();
+  partners_.end_list();
   fine_.end_list();
   target_leaves_.push_back(leaf);
   largest_near_ = std::max(largest_near_, half_width(box.level));

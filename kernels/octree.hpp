@@ -89,9 +89,14 @@ class Octree {
 
   const std::vector<int>& target_leaves() const { return target_leaves_; }  ///< leaves with targets
   const ListOfLists<Run>& near_sources() const { return near_; }            ///< U, per target leaf: runs of sources
-  const ListOfLists<int>& fine_sources() const { return fine_; }            ///< W, per target leaf: boxes
-  const ListOfLists<FarPair>& far_pairs() const { return far_; }            ///< V, per box
-  const ListOfLists<int>& coarse_sources() const { return coarse_; }        ///< X, per box: leaves
+  /// U where sources are the targets, each pair of leaves once: for a target leaf the leaves (in target_leaves) from
+  /// itself on that it exchanges velocities with, and the runs that it only receives from.
+  const ListOfLists<int>& near_partners() const { return partners_; }
+  const ListOfLists<Run>& one_way_sources() const { return one_way_; }
+  bool has_same_nodes() const { return same_nodes_; }
+  const ListOfLists<int>& fine_sources() const { return fine_; }      ///< W, per target leaf: boxes
+  const ListOfLists<FarPair>& far_pairs() const { return far_; }      ///< V, per box
+  const ListOfLists<int>& coarse_sources() const { return coarse_; }  ///< X, per box: leaves
   /// Bit i is set where far pairs with transfer_index i exist.
   std::uint64_t transfers_met() const { return transfers_met_; }
 
@@ -100,6 +105,7 @@ class Octree {
                    const OctreeRules& rules);
   void split_boxes(int leaf_size);
   void build_lists(const OctreeRules& rules);
+  void add_near(int leaf, int other);
   void add_leaf_lists(int leaf, const OctreeRules& rules, std::vector<int>& stack);
 
   double corner_[3] = {};
@@ -116,7 +122,8 @@ class Octree {
   Kokkos::View<std::uint64_t*, HostSpace> spare_key_;
   ListOfLists<int> touching_;  ///< per box: boxes of its level that touch it, and coarser leaves that do
   std::vector<int> target_leaves_;
-  ListOfLists<Run> near_;
+  ListOfLists<Run> near_, one_way_;
+  ListOfLists<int> partners_;
   ListOfLists<int> fine_, coarse_;
   ListOfLists<int> coarse_direct_;  ///< what would be X pairs of leaves with too few targets for an expansion
   ListOfLists<FarPair> far_;

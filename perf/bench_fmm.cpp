@@ -240,7 +240,7 @@ void bench_speed(const bool tiny) {
   const int n = tiny ? 3600 : 23634;
   for (const auto& [shape, nodes] : {std::pair{"straight", make_straight(n)}, std::pair{"spiral", make_spiral(n)}}) {
     Case problem(nodes, fiber_blob), fine(nodes, 2e-4);
-    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    for (const double tolerance : {1e-3, 1e-4, 1e-5, 1.2e-6, 1e-6}) {
       FmmOptions options;
       options.tolerance = tolerance;
       print_outcome(shape, problem, tolerance, measure(problem, options, tiny ? 1 : 7, true));

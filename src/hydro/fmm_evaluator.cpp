@@ -64,6 +64,20 @@ void FmmEvaluator::sort_nodes(const HostNodes& nodes, const double scale) {
                          [=](const int i) { store(sorted.target, i, load(nodes.target, target_order(i))); });
 }
 
+template <class Near, class Real, class Field>
+void FmmEvaluator::add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+                              const Coefficients<Real>& coefficients, const HostVectors& velocity) {
+  if (!is_symmetric_) {
+    add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, {tree_.near_sources(), {}},
+                                           tasks_, velocity);
+    return;
+  }
+  resize(near_velocity_, sorted_.target.extent_int(0), "near_velocity");
+  compute_near_velocities<Near>(sorted_, make_near_matches(tree_), near_velocity_);
+  add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients,
+                                         {tree_.one_way_sources(), near_velocity_}, tasks_, velocity);
+}
+
 template <class Real, class Field>
 void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
                         Coefficients<Real>& coefficients, const HostVectors& velocity) {
@@ -85,11 +99,11 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
   statistics.far_seconds = watch.lap();
   if constexpr (std::is_same_v<Real, float>) {
     if (plan.near_in_single)
-      add_leaf_velocities<float, Real, Field>(tree_, sorted_, field, levels, coefficients, tasks_, velocity);
+      add_leaves<float, Real>(field, levels, coefficients, velocity);
     else
-      add_leaf_velocities<double, Real, Field>(tree_, sorted_, field, levels, coefficients, tasks_, velocity);
+      add_leaves<double, Real>(field, levels, coefficients, velocity);
   } else {
-    add_leaf_velocities<double, Real, Field>(tree_, sorted_, field, levels, coefficients, tasks_, velocity);
+    add_leaves<double, Real>(field, levels, coefficients, velocity);
   }
   statistics.leaf_seconds = watch.lap();
 }
@@ -157,10 +171,8 @@ bool FmmEvaluator::add(const FmmOptions& options, FmmPlan plan, const double vis
     plan.near_in_single &= single_precision_error(blobs.smallest, tree_.largest_leaf()) < options.tolerance;
   count_work(plan);
   statistics.tree_seconds = watch.lap();
-  const bool same = nodes.target.data() == nodes.position.data();
-  if (options.direct_when_cheaper &&
-      estimate_relative_cost(statistics.work, plan, same && blobs.smallest == blobs.largest) > 1.0)
-    return false;
+  is_symmetric_ = tree_.has_same_nodes() && blobs.smallest == blobs.largest;
+  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_) > 1.0) return false;
   sort_nodes(nodes, regularized_stokeslet::scale(viscosity));
   statistics.sort_seconds = watch.lap();
   if (plan.far_in_single)

@@ -3,6 +3,7 @@
 #include <skein/hydro/fmm_mobility.hpp>
 #include <skein/hydro/method_choice.hpp>
 
+#include "kernels/fmm_near_matches.hpp"
 #include "kernels/fmm_translations.hpp"
 #include "operator_store.hpp"
 
@@ -38,11 +39,16 @@ class FmmEvaluator {
   template <class Real, class Field>
   void pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
             Coefficients<Real>& coefficients, const HostVectors& velocity);
+  template <class Near, class Real, class Field>
+  void add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+                  const Coefficients<Real>& coefficients, const HostVectors& velocity);
   void count_work(const FmmPlan& plan);
   double node_bytes() const;
 
   Octree tree_;
   SortedNodes sorted_;
+  bool is_symmetric_ = false;  ///< sources are targets, with one blob
+  HostVectors near_velocity_;
   OperatorStore<double> operators_;
   OperatorStore<float> single_operators_;
   Coefficients<double> coefficients_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace skein {
 namespace {
@@ -60,6 +61,49 @@ MatrixXd make_parity_basis(const MatrixX3d& surface, const int parity) {
   return result;
 }
 
+/// The columns of A that stick out most, orthonormal, a few at once, until less than `allowed` (squared Frobenius norm)
+/// is left of A.
+MatrixXd find_range(MatrixXd matrix, const double allowed) {
+  constexpr Eigen::Index at_once = 16;
+  MatrixXd range(matrix.rows(), std::min(matrix.rows(), matrix.cols()));
+  Eigen::Index rank = 0;
+  while (rank < range.cols()) {
+    const Eigen::RowVectorXd left = matrix.colwise().squaredNorm();
+    if (left.sum() <= allowed) break;
+    std::vector<Eigen::Index> longest(static_cast<std::size_t>(left.size()));
+    std::iota(longest.begin(), longest.end(), Eigen::Index{0});
+    const Eigen::Index n_taken = std::min(at_once, range.cols() - rank);
+    std::partial_sort(longest.begin(), longest.begin() + n_taken, longest.end(),
+                      [&](const Eigen::Index a, const Eigen::Index b) { return left(a) > left(b); });
+    MatrixXd taken(matrix.rows(), n_taken);
+    for (Eigen::Index k = 0; k < n_taken; ++k) taken.col(k) = matrix.col(longest[static_cast<std::size_t>(k)]);
+    taken -= range.leftCols(rank) * (range.leftCols(rank).transpose() * taken);  // against rounding
+    Eigen::ColPivHouseholderQR<MatrixXd> qr(taken);
+    qr.setThreshold(1e-3);  // columns alike are one direction
+    if (qr.rank() == 0) break;
+    const MatrixXd directions = qr.householderQ() * MatrixXd::Identity(matrix.rows(), qr.rank());
+    matrix -= directions * (directions.transpose() * matrix);
+    range.middleCols(rank, directions.cols()) = directions;
+    rank += directions.cols();
+  }
+  return range.leftCols(rank);
+}
+
+/// The fewest orthonormal columns Q with |A - Q Q^T A| <= tolerance |A| (Frobenius).
+MatrixXd leading_range(const MatrixXd& matrix, const double tolerance) {
+  const double allowed = std::pow(std::max(tolerance, 1e-14) * matrix.norm(), 2);
+  const MatrixXd range = find_range(matrix, 0.1 * allowed);
+  const Eigen::HouseholderQR<MatrixXd> qr(matrix.transpose() * range);
+  const MatrixXd triangle = qr.matrixQR().topRows(range.cols()).triangularView<Eigen::Upper>();
+  const Eigen::BDCSVD<MatrixXd> svd(triangle.transpose(), Eigen::ComputeThinU);
+  Eigen::Index rank = range.cols();
+  for (double lost = 0.0; rank > 1; --rank) {
+    lost += std::pow(svd.singularValues()(rank - 1), 2);
+    if (lost > 0.9 * allowed) break;
+  }
+  return range * svd.matrixU().leftCols(rank);
+}
+
 struct Factors {
   MatrixXd inner, outer;
   Eigen::VectorXd singular;
@@ -82,9 +126,11 @@ Eigen::MatrixX3d make_surface(const int order) {
 }
 
 template <class Real>
-FmmOperators<Real>::FmmOperators(const FarField far_field, const int order, const double cutoff, const double blob)
+FmmOperators<Real>::FmmOperators(const FarField far_field, const int order, const double cutoff,
+                                 const double transfer_tolerance, const double blob)
     : far_field_(far_field),
       blob_(far_field == FarField::regularized ? blob : 0.0),
+      transfer_tolerance_(transfer_tolerance),
       n_components_(far_field == FarField::harmonic ? 1 : 3),
       surface_(make_surface(order)) {
   SKEIN_REQUIRE(order >= 2, "a surface needs two points per edge");
@@ -173,11 +219,13 @@ void FmmOperators<Real>::decompose(const double cutoff) {
   set_.sign = Kokkos::View<Real* [8], Kokkos::LayoutLeft, HostSpace>("sign", set_.rank_padded);
   inner_.resize(n_components_ * n, rank);
   outer_.resize(n_components_ * n, rank);
+  weight_.resize(rank);
   int place = 0;
   for (unsigned parity = 0; parity < 8; ++parity)
     for (int k = 0; k < kept[parity]; ++k, ++place) {
       const Factors& factor = factors[parity];
       const double weight = 1.0 / std::sqrt(factor.singular(k));
+      weight_(place) = weight;
       inner_.col(place) = weight * factor.inner.col(k);
       outer_.col(place) = weight * factor.outer.col(k);
       for (unsigned reflected = 0; reflected < 8; ++reflected)
@@ -201,25 +249,47 @@ PaddedMatrix<Real> FmmOperators<Real>::with_plane_columns(const MatrixXd& matrix
   return to_padded<Real>(spread);
 }
 
+/// Potentials of the source box's coefficients, for its centre at `transfer` cells from the target box.
+template <class Real>
+MatrixXd FmmOperators<Real>::transfer_matrix(const int index) const {
+  MatrixX3d from = inner_surface * surface_;
+  const int transfer[3] = {index & 3, index >> 2 & 3, index >> 4};
+  for (int c = 0; c < 3; ++c) from.col(c).array() += 2.0 * transfer[c];
+  return inner_.transpose() * (interaction(inner_surface * surface_, from) * inner_);
+}
+
+/// Between orthonormal densities a transfer has few large singular values: distant boxes see little of each other.
+template <class Real>
+typename FmmOperators<Real>::Thin FmmOperators<Real>::take_apart(const MatrixXd& transfer) const {
+  const auto unweighted = weight_.cwiseInverse().asDiagonal();
+  const MatrixXd densities = unweighted * transfer * unweighted;
+  const MatrixXd range = leading_range(densities, transfer_tolerance_);
+  return {weight_.asDiagonal() * range, range.transpose() * densities * weight_.asDiagonal()};
+}
+
 template <class Real>
 void FmmOperators<Real>::require_transfers(const std::uint64_t met) {
   std::vector<int> missing;
   for (int index = 0; index < n_transfers; ++index)
     if ((met >> index & 1) != 0 && set_.transfer[index].empty()) missing.push_back(index);
   if (missing.empty()) return;
-  for (const int index : missing)  // no View may be made inside a parallel loop
-    set_.transfer[index] = make_padded<Real>(set_.rank, set_.rank);
+  std::vector<Thin> factors(missing.size());
   Kokkos::parallel_for("skein::build_transfers",
                        Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(
                            HostSpace(), 0, static_cast<int>(missing.size()), Kokkos::ChunkSize(1)),
                        [&](const int k) {
-                         const int index = missing[static_cast<std::size_t>(k)];
-                         MatrixX3d from = inner_surface * surface_;
-                         const int transfer[3] = {index & 3, index >> 2 & 3, index >> 4};
-                         for (int c = 0; c < 3; ++c) from.col(c).array() += 2.0 * transfer[c];
-                         const MatrixXd kernel = interaction(inner_surface * surface_, from);
-                         fill<Real>(set_.transfer[index], inner_.transpose() * (kernel * inner_));
+                         const auto at = static_cast<std::size_t>(k);
+                         const MatrixXd transfer = transfer_matrix(missing[at]);
+                         Thin thin = take_apart(transfer);
+                         // Rows are padded, and two products have their own cost.
+                         const bool is_thin = 2.2 * padded<Real>(static_cast<int>(thin.first.rows())) < set_.rank;
+                         factors[at] = is_thin ? std::move(thin) : Thin{transfer, {}};
                        });
+  for (std::size_t k = 0; k < missing.size(); ++k) {  // no View may be made inside a parallel loop
+    auto& transfer = set_.transfer[missing[k]];
+    transfer.last = to_padded<Real>(factors[k].last);
+    if (factors[k].first.size() > 0) transfer.first = to_padded<Real>(factors[k].first);
+  }
 }
 
 template <class Real>
@@ -240,7 +310,8 @@ double FmmOperators<Real>::bytes() const {
   for (const auto* matrix :
        {&set_.to_source, &set_.to_target, &set_.source_density, &set_.target_density, &set_.to_parent, &set_.to_child})
     n += static_cast<double>(matrix->entry.size());
-  for (const auto& matrix : set_.transfer) n += static_cast<double>(matrix.entry.size());
+  for (const auto& matrix : set_.transfer)
+    n += static_cast<double>(matrix.last.entry.size() + matrix.first.entry.size());
   return n * sizeof(Real) + 8.0 * static_cast<double>(inner_.size() + outer_.size());
 }
 

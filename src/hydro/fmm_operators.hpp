@@ -20,8 +20,9 @@ template <class Real>
 class FmmOperators {
  public:
   /// @param blob    regularization length in half-widths, for FarField::regularized; else unused
-  /// @param cutoff  singular values below cutoff times the largest are dropped
-  FmmOperators(FarField far_field, int order, double cutoff, double blob);
+  /// @param cutoff             singular values below cutoff times the largest are dropped
+  /// @param transfer_tolerance  of transfers, that may be lost by taking them apart; relative (Frobenius norm)
+  FmmOperators(FarField far_field, int order, double cutoff, double transfer_tolerance, double blob);
 
   /// Builds the transfers whose bit is set and that do not exist yet.
   void require_transfers(std::uint64_t met);
@@ -34,6 +35,11 @@ class FmmOperators {
 
  private:
   void decompose(double cutoff);
+  Eigen::MatrixXd transfer_matrix(int index) const;
+  struct Thin {
+    Eigen::MatrixXd last, first;
+  };
+  Thin take_apart(const Eigen::MatrixXd& transfer) const;
   /// Potentials at `to` of densities at `from`, both [n, 3].
   Eigen::MatrixXd interaction(const Eigen::MatrixX3d& to, const Eigen::MatrixX3d& from) const;
   /// Columns or rows of planes at stride n_padded.
@@ -42,10 +48,12 @@ class FmmOperators {
 
   FarField far_field_;
   double blob_;
+  double transfer_tolerance_;
   int n_components_;
   Eigen::MatrixX3d surface_;
-  Eigen::MatrixXd inner_;  ///< V S^(-1/2): densities on the inner surface, [n_components n_surface, rank]
-  Eigen::MatrixXd outer_;  ///< U S^(-1/2): densities on the outer surface
+  Eigen::MatrixXd inner_;   ///< V S^(-1/2): densities on the inner surface, [n_components n_surface, rank]
+  Eigen::MatrixXd outer_;   ///< U S^(-1/2): densities on the outer surface
+  Eigen::VectorXd weight_;  ///< S^(-1/2), padded rank not included
   OperatorSet<Real> set_;
 };
 

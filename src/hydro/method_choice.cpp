@@ -28,8 +28,8 @@ using Rows = std::span<const Row>;
 /// More points than 14 per edge gain nothing: rounding in the operators themselves is met.
 constexpr Row harmonic_rows[] = {
     {4, 1e-4, 3e-3, 56, 64},        {5, 1e-5, 5e-4, 90, 64},      {6, 1e-6, 6e-5, 121, 64},
-    {7, 1e-7, 8e-6, 168, 100},      {8, 1e-8, 1.5e-6, 200, 140},  {9, 1e-9, 3e-7, 260, 180},
-    {10, 1e-10, 6e-8, 350, 220},    {11, 1e-10, 1e-8, 380, 220},  {12, 1e-11, 9e-10, 480, 250},
+    {7, 1e-7, 8e-6, 168, 100},      {8, 1e-8, 1.5e-6, 200, 90},   {9, 1e-9, 3e-7, 260, 90},
+    {10, 1e-10, 6e-8, 350, 180},    {11, 1e-10, 1e-8, 380, 220},  {12, 1e-11, 9e-10, 480, 250},
     {13, 1e-12, 1.5e-10, 600, 300}, {14, 1e-13, 5e-11, 750, 300}, {15, 1e-14, 5e-11, 900, 300},
     {16, 1e-14, 5e-11, 1000, 300},
 };
@@ -60,8 +60,22 @@ Rows rows_of(const FarField far_field) {
   return stokeslet_rows;
 }
 
-/// Of the tolerance, that blobs may use up; the order's own error is seldom as large as its bound.
-constexpr double blob_share = 0.5;
+/// The cheapest row that meets the tolerance, of this order or more.
+const Row* find_row(const FmmOptions& options, const int least_order) {
+  const Rows rows = rows_of(options.far_field);
+  const Row* row = &rows.front();
+  while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+  return row;
+}
+
+/// Of the tolerance, that blobs may use up: what the order leaves, or half of it, because the order's own error is
+/// seldom as large as its bound.
+double blob_share(const FmmOptions& options) {
+  return std::max(0.5, 1.0 - find_row(options, options.order)->error / options.tolerance);
+}
+
+/// Of an order's error, that the transfers may lose by being taken apart.
+constexpr double transfer_share = 0.01;
 
 /// The best that a far field promises.
 double least_error(const FmmOptions& options) {
@@ -74,7 +88,7 @@ double least_error(const FmmOptions& options) {
 }  // namespace
 
 double smallest_half_width(const FmmOptions& options, const double max_blob) {
-  return max_blob * std::pow(floor_factor(options) / (blob_share * options.tolerance), 0.25);
+  return max_blob * std::pow(floor_factor(options) / (blob_share(options) * options.tolerance), 0.25);
 }
 
 double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
@@ -124,14 +138,8 @@ void check_fmm_options(const FmmOptions& options) {
 
 FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const int raised_order) {
   check_fmm_options(options);
-  const Rows rows = rows_of(options.far_field);
-  const auto find_row = [&](const int least_order) {
-    const Row* row = &rows.front();
-    while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
-    return row;
-  };
-  const Row* const planned = find_row(options.order);
-  const Row* const row = find_row(math::larger(options.order, raised_order));
+  const Row* const planned = find_row(options, options.order);
+  const Row* const row = find_row(options, math::larger(options.order, raised_order));
   const int n_raises = row->order - planned->order;
 
   FmmPlan plan;
@@ -145,6 +153,7 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
   plan.singular_cutoff = options.singular_cutoff > 0.0 && n_raises == 0 ? options.singular_cutoff
                          : plan.far_in_single                           ? std::max(row->cutoff, single_cutoff)
                                                                         : row->cutoff;
+  plan.transfer_tolerance = transfer_share * row->error;
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
   plan.expected_error = plan.far_in_single ? std::max(row->error, single_error) : row->error;
 
@@ -177,18 +186,20 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
   return text + fmt::format(", {:g} allowed", options.tolerance);
 }
 
-double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool direct_is_symmetric) {
+double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric) {
   // Nanoseconds on one core with wide vectors; only their ratios matter.
-  const double near_pair = plan.near_in_single ? 0.40 : 0.75;
+  const double near_pair = is_symmetric ? plan.near_in_single ? 0.35 : 0.68 : plan.near_in_single ? 0.40 : 0.75;
   const double surface_pair = plan.far_in_single ? 0.45 : 0.85;
   const double product = plan.far_in_single ? 1.0 / 60.0 : 1.0 / 30.0;  // per multiplication and addition, times two
-  const double direct_pair = direct_is_symmetric ? 0.63 : 0.77;
+  const double transfer_work = 0.4;  // of thin factors, over that of the whole matrix
+  const double direct_pair = is_symmetric ? 0.63 : 0.77;
   const double n_surface = 6.0 * (plan.order - 1) * (plan.order - 1) + 2.0;
   const double rank = plan.rank;
-  const double fmm =
-      near_pair * work.near_pairs + surface_pair * n_surface * (work.n_sources + work.n_targets) +
-      8.0 * product * (rank * rank * (work.far_pairs + 2.0 * work.n_boxes) + 2.0 * rank * n_surface * work.n_boxes) +
-      40.0 * (work.n_sources + work.n_targets) + 2e4;
+  const double fmm = near_pair * work.near_pairs + surface_pair * n_surface * (work.n_sources + work.n_targets) +
+                     8.0 * product *
+                         (rank * rank * (transfer_work * work.far_pairs + 2.0 * work.n_boxes) +
+                          2.0 * rank * n_surface * work.n_boxes) +
+                     40.0 * (work.n_sources + work.n_targets) + 2e4;
   return fmm / (direct_pair * work.n_sources * work.n_targets);
 }
 

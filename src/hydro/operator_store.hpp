@@ -29,7 +29,8 @@ class OperatorStore {
           operators.push_back(nullptr);
           continue;
         }
-        found = kept_.try_emplace(ratio, far_field, plan.order, plan.singular_cutoff, ratio).first;
+        found =
+            kept_.try_emplace(ratio, far_field, plan.order, plan.singular_cutoff, plan.transfer_tolerance, ratio).first;
       }
       operators.push_back(&found->second);
     }

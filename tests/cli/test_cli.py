@@ -162,8 +162,8 @@ class GoodScenes(InFreshFolder):
             (["fiber.sections=301", "hydrodynamics.tolerance=1e-12"], "chosen because tolerance = 1e-12 is below"),
             (["hydrodynamics.method=direct", "hydrodynamics.precision=single"], "pairs in single precision"),
             (["hydrodynamics.method=fmm", "hydrodynamics.precision=double", "hydrodynamics.check_every=0",
-              "hydrodynamics.order=9"], "order 9 in double precision, about 180 nodes a leaf of half-width 0.0154 or more "
-              "(for the blobs), error of at most 3e-07 expected by the order and 5e-06 by the blobs, 1e-05 allowed; never "
+              "hydrodynamics.order=9"], "order 9 in double precision, about 90 nodes a leaf of half-width 0.0131 or more "
+              "(for the blobs), error of at most 3e-07 expected by the order and 1e-05 by the blobs, 1e-05 allowed; never "
               "checked"),
         ]:
             with self.subTest(overrides=overrides):

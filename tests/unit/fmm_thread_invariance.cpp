@@ -27,21 +27,25 @@ void print_hashes() {
       for (const FmmPrecision precision : {FmmPrecision::in_double, FmmPrecision::in_single})
         for (const FarField far_field : {FarField::harmonic, FarField::stokeslet}) {
           if (far_field == FarField::stokeslet && n > 500) continue;
-          reference::Random random(4);
-          const Vectors position = to_device("position", reference::make_cloud(cloud, n, {0.3, 0.1, 2.0}, 1.0, random));
-          const Sources sources{position, to_device("force", reference::make_random_vectors(n, 1.3, random)),
-                                to_device("blob", reference::make_random_lengths(n, 1e-5, 1e-3, random))};
-          FmmOptions options;
-          options.precision = precision;
-          options.far_field = far_field;
-          options.tolerance = 1e-3;
-          options.leaf_size = 25;
-          FmmMobility fmm(1.7, options);
-          for (int repeat = 0; repeat < 2; ++repeat) {  // kept operators and buffers change nothing
-            const Vectors velocity("velocity", n);
-            fmm.add_velocity(sources, position, velocity);
-            std::printf("%s %d %d %d %016llx\n", reference::name_of(cloud).c_str(), n, static_cast<int>(precision),
-                        static_cast<int>(far_field), static_cast<unsigned long long>(hash_of(to_host(velocity))));
+          for (const double largest_blob : {1e-3, 1e-5}) {  // many blobs, and one
+            reference::Random random(4);
+            const Vectors position =
+                to_device("position", reference::make_cloud(cloud, n, {0.3, 0.1, 2.0}, 1.0, random));
+            const Sources sources{position, to_device("force", reference::make_random_vectors(n, 1.3, random)),
+                                  to_device("blob", reference::make_random_lengths(n, 1e-5, largest_blob, random))};
+            FmmOptions options;
+            options.precision = precision;
+            options.far_field = far_field;
+            options.tolerance = 1e-3;
+            options.leaf_size = 25;
+            FmmMobility fmm(1.7, options);
+            for (int repeat = 0; repeat < 2; ++repeat) {  // kept operators and buffers change nothing
+              const Vectors velocity("velocity", n);
+              fmm.add_velocity(sources, position, velocity);
+              std::printf("%s %d %d %d %g %016llx\n", reference::name_of(cloud).c_str(), n, static_cast<int>(precision),
+                          static_cast<int>(far_field), largest_blob,
+                          static_cast<unsigned long long>(hash_of(to_host(velocity))));
+            }
           }
         }
 }

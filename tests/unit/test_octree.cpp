@@ -1,3 +1,4 @@
+#include "kernels/fmm_near_matches.hpp"
 #include "kernels/octree.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +24,26 @@ OctreeRules rules_for(const int leaf_size, const double min_half_width, const in
   return rules;
 }
 
+/// The near field of nodes that are sources and targets alike, as add(targets, sources).
+template <class Add>
+void visit_near_matches(const Octree& tree, const Add& add) {
+  const NearMatches near = make_near_matches(tree);
+  for (const Match& match : near.matches) {
+    const Run one = near.tiles[static_cast<std::size_t>(match.one)];
+    const Run other = near.tiles[static_cast<std::size_t>(match.other)];
+    add(one, other);
+    if (match.one != match.other) add(other, one);
+  }
+  for (int l = 0; l < static_cast<int>(tree.target_leaves().size()); ++l) {
+    const Run targets =
+        tree.boxes()[static_cast<std::size_t>(tree.target_leaves()[static_cast<std::size_t>(l)])].targets;
+    for (const Run* run = tree.one_way_sources().begin(l); run != tree.one_way_sources().end(l); ++run)
+      add(targets, *run);
+  }
+}
+
 /// How many times the lists count each pair of a target and a source; 1 everywhere is right.
-std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int n_sources) {
+std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int n_sources, const bool with_matches) {
   std::vector<int> count(static_cast<std::size_t>(n_targets) * static_cast<std::size_t>(n_sources));
   const auto& boxes = tree.boxes();
   const auto add = [&](const Run targets, const Run sources) {
@@ -36,10 +55,12 @@ std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int 
   for (std::size_t leaf = 0; leaf < tree.target_leaves().size(); ++leaf) {
     const int l = static_cast<int>(leaf);
     const Run targets = boxes[static_cast<std::size_t>(tree.target_leaves()[leaf])].targets;
-    for (const Run* run = tree.near_sources().begin(l); run != tree.near_sources().end(l); ++run) add(targets, *run);
+    if (!with_matches)
+      for (const Run* run = tree.near_sources().begin(l); run != tree.near_sources().end(l); ++run) add(targets, *run);
     for (const int* w = tree.fine_sources().begin(l); w != tree.fine_sources().end(l); ++w)
       add(targets, boxes[static_cast<std::size_t>(*w)].sources);
   }
+  if (with_matches) visit_near_matches(tree, add);
   for (int b = 0; b < static_cast<int>(boxes.size()); ++b) {
     for (const FarPair* pair = tree.far_pairs().begin(b); pair != tree.far_pairs().end(b); ++pair)
       add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(pair->source)].sources);
@@ -49,14 +70,28 @@ std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int 
   return count;
 }
 
+void expect_ones(const std::vector<int>& count) {
+  EXPECT_TRUE(std::all_of(count.begin(), count.end(), [](const int c) { return c == 1; }))
+      << *std::min_element(count.begin(), count.end()) << " .. " << *std::max_element(count.begin(), count.end());
+}
+
 void expect_every_pair_once(const std::vector<Vec3>& source, const std::vector<Vec3>& target,
                             const OctreeRules& rules) {
   const HostVectors sources = make_host_vectors(source), targets = make_host_vectors(target);
   Octree tree;
   tree.build(sources, targets, rules);
-  const auto count = count_pairs(tree, static_cast<int>(target.size()), static_cast<int>(source.size()));
-  EXPECT_TRUE(std::all_of(count.begin(), count.end(), [](const int c) { return c == 1; }))
-      << *std::min_element(count.begin(), count.end()) << " .. " << *std::max_element(count.begin(), count.end());
+  expect_ones(count_pairs(tree, static_cast<int>(target.size()), static_cast<int>(source.size()), false));
+}
+
+/// Sources that are the targets: as any two arrays, and each pair of leaves once.
+void expect_every_pair_once(const std::vector<Vec3>& nodes, const OctreeRules& rules) {
+  expect_every_pair_once(nodes, nodes, rules);
+  const HostVectors array = make_host_vectors(nodes);
+  Octree tree;
+  tree.build(array, array, rules);
+  const int n = static_cast<int>(nodes.size());
+  expect_ones(count_pairs(tree, n, n, false));
+  expect_ones(count_pairs(tree, n, n, true));
 }
 
 TEST(Octree, ListsHoldEveryPairOnce) {
@@ -68,7 +103,7 @@ TEST(Octree, ListsHoldEveryPairOnce) {
         const auto source = reference::make_cloud(cloud, 500, {3.0, -1.0, 0.4}, 0.7, random);
         const auto target = reference::make_cloud(Cloud::cluster, 300, {3.1, -1.0, 0.4}, 0.5, random);
         expect_every_pair_once(source, target, rules_for(leaf_size, 0.0, min_sources));
-        expect_every_pair_once(source, source, rules_for(leaf_size, 0.0, min_sources));
+        expect_every_pair_once(source, rules_for(leaf_size, 0.0, min_sources));
       }
 }
 
@@ -86,22 +121,39 @@ TEST(Octree, UsesEveryKindOfList) {
   EXPECT_GT(tree.near_sources().entries.size(), 0u);
 }
 
+TEST(Octree, AMatchWaitsForTheTurnsBeforeIt) {
+  Random random(8);
+  const HostVectors nodes = make_host_vectors(reference::make_cloud(Cloud::cluster, 5000, {}, 1.0, random));
+  Octree tree;
+  tree.build(nodes, nodes, rules_for(20, 0.0, 0));
+  const NearMatches near = make_near_matches(tree);
+  std::vector<int> n_met(near.tiles.size(), 0);
+  for (const Match& match : near.matches) {
+    EXPECT_EQ(match.turn_of_one, n_met[static_cast<std::size_t>(match.one)]++);
+    if (match.other == match.one) continue;
+    EXPECT_EQ(match.turn_of_other, n_met[static_cast<std::size_t>(match.other)]++);
+  }
+  for (std::size_t tile = 0; tile < near.tiles.size(); ++tile) EXPECT_GT(n_met[tile], 0) << tile;
+}
+
 TEST(Octree, BadInputMakesAFiniteTree) {
   const OctreeRules rules = rules_for(2, 0.0, 10);
-  expect_every_pair_once({}, {}, rules);
-  expect_every_pair_once({{1.0, 2.0, 3.0}}, {{1.0, 2.0, 3.0}}, rules);
+  expect_every_pair_once(std::vector<Vec3>{}, rules);
+  expect_every_pair_once(std::vector<Vec3>{{1.0, 2.0, 3.0}}, rules);
+  expect_every_pair_once(std::vector<Vec3>(100, {0.1, 0.2, 0.3}), rules);
   expect_every_pair_once({{1.0, 2.0, 3.0}}, {}, rules);
   expect_every_pair_once(std::vector<Vec3>(100, {0.1, 0.2, 0.3}), std::vector<Vec3>(50, {0.1, 0.2, 0.3}), rules);
   std::vector<Vec3> line, twice;
   for (int i = 0; i < 200; ++i) line.push_back({0.01 * i, 0.0, 0.0});
   for (int i = 0; i < 200; ++i) twice.push_back({std::ldexp(1.0, -(i / 2)), 1.0, 0.0});  // ever closer pairs
-  expect_every_pair_once(line, line, rules);
-  expect_every_pair_once(twice, twice, rules);
+  expect_every_pair_once(line, rules);
+  expect_every_pair_once(twice, rules);
   std::vector<Vec3> far = line;
   far.push_back({1e12, -1e12, 1e12});
   expect_every_pair_once(far, line, rules);
   far.push_back({std::numeric_limits<double>::quiet_NaN(), 0.0, std::numeric_limits<double>::infinity()});
   expect_every_pair_once(far, line, rules);
+  expect_every_pair_once(far, rules);
 }
 
 TEST(Octree, NoLeafIsSmallerThanAllowed) {

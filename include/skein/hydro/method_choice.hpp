@@ -40,9 +40,10 @@ struct FmmPlan {
   int order = 6;
   int rank = 121;  ///< about, of the operators
   double singular_cutoff = 0.0;
-  int leaf_size = 64;           ///< along a line; a cloud's leaves hold more
-  double min_half_width = 0.0;  ///< length
-  bool near_in_single = false;  ///< allowed; see single_precision_error
+  double transfer_tolerance = 0.0;  ///< that transfers may lose by being taken apart, relative
+  int leaf_size = 64;               ///< along a line; a cloud's leaves hold more
+  double min_half_width = 0.0;      ///< length
+  bool near_in_single = false;      ///< allowed; see single_precision_error
   bool far_in_single = false;
   double expected_error = 0.0;  ///< by the order: bound from the table, for any arrangement of nodes
   double blob_error = 0.0;      ///< in the smallest leaves, by the floor law
@@ -92,6 +93,7 @@ struct FmmWork {
 };
 
 /// Time of an evaluation over that of a direct sum, from measured rates of pairs and products.
-double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool direct_is_symmetric);
+/// @param is_symmetric  sources are targets, with one blob: each pair is met once
+double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool is_symmetric);
 
 }  // namespace skein
