@@ -19,11 +19,11 @@ struct CostCard {
   double observables = 0.0;
   double output = 0.0;  ///< frames and checkpoints
   double megabytes = 0.0;
-  double largest_error = 0.0;   ///< of a step, over the tolerance; 0 where the method has no estimate
+  double largest_error = 0.0;    ///< of a step, over the tolerance; 0 where the method has no estimate
   double estimated_error = 0.0;  ///< of the positions: sum of the steps' estimates in the whole run, fiber lengths
-  std::string mobility;         ///< as it describes itself
-  ErrorRecord velocity_errors;  ///< of the whole run
-  double direct_seconds = 0.0;  ///< that direct sums would have taken, estimated; 0 where that is the method
+  std::string mobility;          ///< as it describes itself
+  ErrorRecord velocity_errors;   ///< of the whole run
+  double direct_seconds = 0.0;   ///< that direct sums would have taken, estimated; 0 where that is the method
 };
 
 /// Several lines; shares of the wall time in percent.

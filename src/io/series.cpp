@@ -162,7 +162,8 @@ void append(Series& series, const StepRecord& record) {
   series.append(record.step, record.time,
                 {record.energy, record.length, record.curvature_max, record.symmetry_defect, record.out_of_plane,
                  as_doubles(record.end_to_end), one(record.smallest_gap), one(record.dt), one(record.error),
-                 one(record.estimated_error), one(record.spectral_radius), one(evaluations), one(record.velocity_error), one(order), one(misses)});
+                 one(record.estimated_error), one(record.spectral_radius), one(evaluations), one(record.velocity_error),
+                 one(order), one(misses)});
 }
 
 }  // namespace skein
