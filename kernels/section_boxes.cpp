@@ -3,29 +3,6 @@
 #include <skein/core/error.hpp>
 
 namespace skein {
-namespace {
-
-KOKKOS_INLINE_FUNCTION Vec3 lower_of(const Vec3 a, const Vec3 b) {
-  return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
-}
-KOKKOS_INLINE_FUNCTION Vec3 upper_of(const Vec3 a, const Vec3 b) {
-  return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
-}
-
-/// Low and high corner of the box about rows [first, end) of corners.
-template <class Space>
-KOKKOS_INLINE_FUNCTION void enclose(const VectorView<Space>& lows, const VectorView<Space>& highs, const int first,
-                                    const int end, Vec3& low, Vec3& high) {
-  low = load(lows, first);
-  high = load(highs, first);
-  for (int i = first + 1; i < end; ++i) {
-    low = lower_of(low, load(lows, i));
-    high = upper_of(high, load(highs, i));
-  }
-}
-
-}  // namespace
-
 template <class Space>
 void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& vector,
                            const VectorView<Space>& mean) {

@@ -39,6 +39,25 @@ void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes,
 template <class Space>
 void locate_sections(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position);
 
+KOKKOS_INLINE_FUNCTION Vec3 lower_of(const Vec3 a, const Vec3 b) {
+  return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+KOKKOS_INLINE_FUNCTION Vec3 upper_of(const Vec3 a, const Vec3 b) {
+  return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
+
+/// Low and high corner of the box about rows [first, end) of corners.
+template <class Space>
+KOKKOS_INLINE_FUNCTION void enclose(const VectorView<Space>& lows, const VectorView<Space>& highs, const int first,
+                                    const int end, Vec3& low, Vec3& high) {
+  low = load(lows, first);
+  high = load(highs, first);
+  for (int i = first + 1; i < end; ++i) {
+    low = lower_of(low, load(lows, i));
+    high = upper_of(high, load(highs, i));
+  }
+}
+
 /// Square of the distance between two boxes, 0 where they overlap. No less than rounding below that of two points in
 /// them.
 KOKKOS_INLINE_FUNCTION double squared_distance(const Vec3 low, const Vec3 high, const Vec3 other_low,

@@ -92,38 +92,73 @@ struct MomentTerm {
   }
 };
 
-/// Sums over the near sections of a whole run at once on hosts, which shares the search among its sections, and of one
-/// section on devices. Either way in the order of the sections.
+constexpr int runs_at_once = 8;  // of a host's thread: 128 sums lie on its stack
+
+/// Sums over near sections: on hosts for several runs of a fiber at once, which share the search, on devices for one
+/// section. Either way in the order of the sections.
 template <class Space, class Term>
 struct Gathering {
-  static constexpr int sections_at_once = on_host<Space> ? sections_per_run : 1;
-  static constexpr int parts_per_run = sections_per_run / sections_at_once;
+  static constexpr int items_per_run = on_host<Space> ? 1 : sections_per_run;
   SectionBoxes<Space> boxes;
   RepulsionLaw law;
   Term term;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int index) const {
-    const int run = index / parts_per_run;
+  KOKKOS_INLINE_FUNCTION void operator()(const int item) const {
+    const int run = item / items_per_run;
     const int f = boxes.fiber_of_run(run);
-    const BoxedFiber& fiber = boxes.fiber(f);
-    const int first = (run - fiber.first_run) * sections_per_run + index % parts_per_run * sections_at_once;
-    const int count = math::smaller(sections_at_once, fiber.n_sections - first);
-    if (count <= 0) return;
-    const int first_section = fiber.first_section + first;
-
-    typename Term::Value sum[sections_at_once] = {};
-    const Vec3 low = sections_at_once > 1 ? load(boxes.run_low, run) : load(boxes.centroid, first_section);
-    const Vec3 high = sections_at_once > 1 ? load(boxes.run_high, run) : low;
-    for_each_near_run<Space>(boxes, low, high, law.range + fiber.radius, [&](const int other_f, const int other_run) {
-      for (int i = 0; i < count; ++i)
-        sum[i] = add_run(fiber, first_section + i, boxes.fiber(other_f), other_run, f == other_f, sum[i]);
-    });
-    for (int i = 0; i < count; ++i) term.finish(fiber, first_section + i, sum[i]);
+    if constexpr (items_per_run == 1)
+      gather_runs(f, run);
+    else
+      gather_section(f, run, item % items_per_run);
   }
 
-  KOKKOS_INLINE_FUNCTION typename Term::Value add_run(const BoxedFiber& fiber, const int section,
-                                                      const BoxedFiber& other_fiber, const int run,
-                                                      const bool same_fiber, typename Term::Value sum) const {
+  /// Of the run and those that follow it on its fiber.
+  KOKKOS_INLINE_FUNCTION void gather_runs(const int f, const int run) const {
+    const BoxedFiber& fiber = boxes.fiber(f);
+    if ((run - fiber.first_run) % runs_at_once != 0) return;
+    const int n_runs = math::ceil_div(fiber.n_sections, sections_per_run);
+    const int end_run = fiber.first_run + math::smaller(run - fiber.first_run + runs_at_once, n_runs);
+    const int first = fiber.first_section + (run - fiber.first_run) * sections_per_run;
+    const double margin = law.range + fiber.radius;
+    Vec3 low, high;
+    enclose<Space>(boxes.run_low, boxes.run_high, run, end_run, low, high);
+
+    typename Term::Value sum[runs_at_once * sections_per_run] = {};
+    for_each_near_run<Space>(boxes, low, high, margin, [&](const int other_f, const int other_run) {
+      const double reach = margin + boxes.fiber(other_f).radius;
+      const Vec3 other_low = load(boxes.run_low, other_run), other_high = load(boxes.run_high, other_run);
+      for (int own = run; own < end_run; ++own) {
+        if (squared_distance(load(boxes.run_low, own), load(boxes.run_high, own), other_low, other_high) >
+            reach * reach)
+          continue;
+        const int begin = fiber.first_section + (own - fiber.first_run) * sections_per_run;
+        const int end = math::smaller(begin + sections_per_run, fiber.first_section + fiber.n_sections);
+        for (int section = begin; section < end; ++section)
+          sum[section - first] = add_run(f, section, other_f, other_run, sum[section - first]);
+      }
+    });
+    const int n_sections =
+        math::smaller(runs_at_once * sections_per_run, fiber.first_section + fiber.n_sections - first);
+    for (int i = 0; i < n_sections; ++i) term.finish(fiber, first + i, sum[i]);
+  }
+
+  KOKKOS_INLINE_FUNCTION void gather_section(const int f, const int run, const int place) const {
+    const BoxedFiber& fiber = boxes.fiber(f);
+    const int number = (run - fiber.first_run) * sections_per_run + place;
+    if (number >= fiber.n_sections) return;
+    const int section = fiber.first_section + number;
+    const Vec3 x = load(boxes.centroid, section);
+    typename Term::Value sum{};
+    for_each_near_run<Space>(boxes, x, x, law.range + fiber.radius, [&](const int other_f, const int other_run) {
+      sum = add_run(f, section, other_f, other_run, sum);
+    });
+    term.finish(fiber, section, sum);
+  }
+
+  /// The sum so far, with the pairs of a section with those of a run.
+  KOKKOS_INLINE_FUNCTION typename Term::Value add_run(const int f, const int section, const int other_f, const int run,
+                                                      typename Term::Value sum) const {
+    const BoxedFiber &fiber = boxes.fiber(f), &other_fiber = boxes.fiber(other_f);
     const double radii = fiber.radius + other_fiber.radius;
     const double limit = (law.range + radii) * (law.range + radii);
     const double scale = law.strength * (fiber.spacing * other_fiber.spacing);
@@ -132,7 +167,7 @@ struct Gathering {
     const int end = other_fiber.first_section + math::smaller(first + sections_per_run, other_fiber.n_sections);
     for (int other = other_fiber.first_section + first; other < end; ++other) {
       const int apart = other > section ? other - section : section - other;
-      if (same_fiber && apart < fiber.distant_sections) continue;
+      if (f == other_f && apart < fiber.distant_sections) continue;
       const Vec3 d = x - load(boxes.centroid, other);
       const double d_squared = dot(d, d);
       if (!(d_squared < limit)) continue;
@@ -149,7 +184,7 @@ void gather(const char* label, const Space& space, const SectionBoxes<Space>& bo
             const Term& term) {
   using Kernel = Gathering<Space, Term>;
   Kokkos::parallel_for(label,
-                       Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0) * Kernel::parts_per_run),
+                       Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0) * Kernel::items_per_run),
                        Kernel{boxes, law, term});
 }
 
