@@ -74,7 +74,7 @@ double compute_smallest_gap(const std::vector<Fiber>& fibers, const std::vector<
     const auto line = centreline_of(fibers[f], centreline);
     const double longest = longest_segment(line);
     const double radius = fibers[f].config.radius;
-    const auto apart = static_cast<std::size_t>(std::ceil(distant_radii * radius / fibers[f].spacing()));
+    const auto apart = static_cast<std::size_t>(fibers[f].distant_sections());
     for (std::size_t s = 0; s + apart < line.size(); ++s)
       gap = std::min(gap, distance_to_line(line[s], line, s + apart, longest, gap + 2.0 * radius) - 2.0 * radius);
     for (std::size_t g = f + 1; g < fibers.size(); ++g) {

@@ -53,7 +53,7 @@ double time_direct_sum(const ConstVectors& position, const double viscosity) {
 std::string describe_dry_run(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
   FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-                         make_mobility(scene));
+                         make_mobility(scene), make_section_repulsion(scene.repulsion, fibers));
   const auto integrator = make_integrator(scene, fibers, dynamics);
   const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers, scene.seed));
   EvaluationCost cost = time_evaluation(dynamics, position);

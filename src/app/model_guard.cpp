@@ -6,7 +6,7 @@
 
 namespace skein {
 
-ModelGuard::ModelGuard(const std::vector<Fiber>& fibers) {
+ModelGuard::ModelGuard(const std::vector<Fiber>& fibers, const bool has_repulsion) : has_repulsion_(has_repulsion) {
   for (const Fiber& fiber : fibers) {
     spacing_.push_back(fiber.spacing());
     blob_ = std::max(blob_, fiber.config.blob);
@@ -40,11 +40,10 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
              "take a larger spring_stiffness",
              100.0 * largest_strain));
   if (record.smallest_gap < blob_)
-    meet(
-        contact, record.smallest_gap < worst_[contact] * blob_, record.smallest_gap / blob_,
-        fmt::format("surfaces are {:.3g} apart, less than a blob, {:.3g}: nothing keeps them from passing through each "
-                    "other",
-                    record.smallest_gap, blob_));
+    meet(contact, record.smallest_gap < worst_[contact] * blob_, record.smallest_gap / blob_,
+         fmt::format("surfaces are {:.3g} apart, less than a blob, {:.3g}: {}", record.smallest_gap, blob_,
+                     has_repulsion_ ? "the repulsion is weak here; take a larger repulsion.strength"
+                                    : "nothing keeps them from passing through each other; a [repulsion] would"));
   return news;
 }
 

@@ -14,7 +14,8 @@ namespace skein {
 /// half, fibers (or distant sections of one) closer than a blob. Each kind is told once, and counted by steps.
 class ModelGuard {
  public:
-  explicit ModelGuard(const std::vector<Fiber>& fibers);
+  /// @param has_repulsion  something keeps fibers apart, if it is strong enough
+  explicit ModelGuard(const std::vector<Fiber>& fibers, bool has_repulsion = false);
 
   /// @param record  of the step, with its observables
   /// @param largest_strain  |r/l - 1| over the springs
@@ -34,6 +35,7 @@ class ModelGuard {
 
   std::vector<double> spacing_;  ///< [n_fibers], length
   double blob_ = 0.0;            ///< the largest, length
+  bool has_repulsion_;
   std::array<std::int64_t, n_kinds> n_steps_{};
   std::array<double, n_kinds> worst_{};  ///< curvature times spacing; strain; gap / blob
 };

@@ -24,7 +24,7 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
   return regimes;
 }
 
-StepRecord make_step_record(const std::vector<Fiber>& fibers, const SpringForces& springs, const State& state,
+StepRecord make_step_record(const std::vector<Fiber>& fibers, const FiberDynamics& dynamics, const State& state,
                             const StepReport& report) {
   StepRecord record;
   record.step = state.step;
@@ -32,7 +32,7 @@ StepRecord make_step_record(const std::vector<Fiber>& fibers, const SpringForces
   record.dt = report.dt;
   record.error = report.error;
   record.spectral_radius = report.spectral_radius;
-  record.energy = springs.compute_energies(state.position);
+  record.energy = dynamics.compute_energies(state.position);
   const auto centreline = compute_centreline(fibers, state.position);
   record.smallest_gap = compute_smallest_gap(fibers, centreline);
   for (const Fiber& fiber : fibers) {

@@ -2,7 +2,7 @@
 
 #include <skein/analysis/regime.hpp>
 #include <skein/io/trajectory.hpp>
-#include <skein/model/spring_forces.hpp>
+#include <skein/time/fiber_dynamics.hpp>
 #include <skein/time/integrator.hpp>
 
 #include <cstdint>
@@ -17,7 +17,7 @@ Frame make_frame(const std::vector<Fiber>& fibers, std::int64_t step, double tim
 std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame& frame);
 
 /// The small numbers of the step that led to `state`, but for the count of evaluations.
-StepRecord make_step_record(const std::vector<Fiber>& fibers, const SpringForces& springs, const State& state,
+StepRecord make_step_record(const std::vector<Fiber>& fibers, const FiberDynamics& dynamics, const State& state,
                             const StepReport& report);
 
 }  // namespace skein

@@ -10,6 +10,7 @@
 #include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_reader.hpp>
 #include <skein/model/background_flow.hpp>
+#include <skein/model/section_repulsion.hpp>
 #include <skein/model/spring_forces.hpp>
 
 #include <fmt/format.h>
@@ -41,13 +42,24 @@ Matrix3 measure_strain_rate(const BackgroundFlow& flow, const double time, const
   return strain;
 }
 
-/// Springs, flow and fluid of a scene, asked for what they do at given positions.
+/// Takes a moment's part without trace from a stresslet. @param moment  xx, yy, zz, yz, xz, xy
+void subtract_moment(const std::array<double, 6>& moment, Matrix3& stresslet) {
+  const double third = (moment[0] + moment[1] + moment[2]) / 3.0;
+  for (int a = 0; a < 3; ++a) {
+    stresslet[a][a] -= moment[a] - third;
+    for (int b = 0; b < 3; ++b)
+      if (b != a) stresslet[a][b] -= moment[6 - a - b];
+  }
+}
+
+/// Springs, repulsion, flow and fluid of a scene, asked for what they do at given positions.
 class ForceProbe {
  public:
   ForceProbe(const SceneConfig& scene, const std::vector<Fiber>& fibers)
       : fibers_(fibers),
         viscosity_(scene.fluid.viscosity),
         springs_(fibers),
+        repulsion_(make_section_repulsion(scene.repulsion, fibers)),
         flow_(make_background_flow(scene.flows)),
         mobility_(make_mobility(scene)),
         blob_(to_device("skein::ForceProbe::blob", make_blobs(fibers))) {}
@@ -58,9 +70,16 @@ class ForceProbe {
     const Vectors force("skein::ForceProbe::force", n), induced("skein::ForceProbe::induced", n),
         background("skein::ForceProbe::background", n);
     springs_.compute_forces(position, force);
+    const auto elastic = to_host(ConstVectors(force));
+    auto energy = springs_.compute_energies(position);
+    std::vector<std::array<double, 6>> moments(fibers_.size());
+    if (repulsion_ != nullptr) {
+      repulsion_->add_forces(position, force);
+      repulsion_->add_energies(position, energy);
+      moments = repulsion_->compute_moments(position);
+    }
     mobility_->add_velocity({position, force, blob_}, position, induced);
     flow_->add_velocity(frame.time, position, background);
-    const auto energy = springs_.compute_energies(position);
     const auto f = to_host(ConstVectors(force)), u = to_host(ConstVectors(induced)),
                b = to_host(ConstVectors(background));
     std::vector<ForceRecord> records;
@@ -74,7 +93,8 @@ class ForceProbe {
       ForceRecord record;
       record.energy = energy[i];
       record.power = compute_power_balance(part(f), part(u), part(b));
-      record.stresslet = compute_stresslet(part(frame.position), part(f));
+      record.stresslet = compute_stresslet(part(frame.position), part(elastic));
+      if (repulsion_ != nullptr) subtract_moment(moments[i], record.stresslet);
       record.viscosity_contribution = compute_viscosity_contribution(
           record.stresslet, measure_strain_rate(*flow_, frame.time, middle, fiber.config.radius), viscosity_);
       records.push_back(record);
@@ -86,10 +106,23 @@ class ForceProbe {
   const std::vector<Fiber>& fibers_;
   double viscosity_;
   SpringForces springs_;
+  std::unique_ptr<SectionRepulsion> repulsion_;  ///< null: none
   std::unique_ptr<BackgroundFlow> flow_;
   std::unique_ptr<Mobility> mobility_;
   Scalars blob_;
 };
+
+/// Energies and powers of all fibers together.
+std::vector<ForceRecord> add_up(const std::vector<std::vector<ForceRecord>>& forces) {
+  std::vector<ForceRecord> sum(forces.front().size());
+  for (const auto& records : forces)
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      sum[i].energy += records[i].energy;
+      sum[i].power.background += records[i].power.background;
+      sum[i].power.dissipation += records[i].power.dissipation;
+    }
+  return sum;
+}
 
 }  // namespace
 
@@ -125,7 +158,7 @@ RunAnalysis analyze_run(const RunFolder& folder, const bool with_forces) {
 
 double measure_energy_defect(const RunAnalysis& analysis, const int fiber) {
   if (analysis.forces.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto& records = analysis.forces[fiber];
+  const auto records = analysis.scene.repulsion.strength > 0.0 ? add_up(analysis.forces) : analysis.forces[fiber];
   double integral = 0.0, defect = 0.0, exchanged = 0.0;
   for (std::size_t i = 1; i < records.size(); ++i) {
     const double half_step = 0.5 * (analysis.time[i] - analysis.time[i - 1]);

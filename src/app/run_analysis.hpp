@@ -12,7 +12,7 @@ namespace skein {
 
 /// What the forces of one fiber do at one moment.
 struct ForceRecord {
-  double energy = 0.0;  ///< elastic, force * length
+  double energy = 0.0;  ///< elastic and of the repulsion, force * length
   PowerBalance power;
   Matrix3 stresslet{};                  ///< force * length
   double viscosity_contribution = 0.0;  ///< length^3; see compute_viscosity_contribution
@@ -35,7 +35,8 @@ struct RunAnalysis {
 RunAnalysis analyze_run(const RunFolder& folder, bool with_forces);
 
 /// Largest |E(t) - E(0) - integral of the elastic power|, by the trapezoidal rule over frames, over what the fluid
-/// dissipated: how well the powers of springs, flow and fluid add up. NaN without forces or without motion.
+/// dissipated: how well the powers of springs, flow and fluid add up. Of all fibers together where the scene has a
+/// repulsion, which passes energy from one to the other. NaN without forces or without motion.
 double measure_energy_defect(const RunAnalysis& analysis, int fiber);
 
 /// diagnostics.csv, a row for each frame and fiber, and diagnostics.h5, the same by fibers with curvature along the

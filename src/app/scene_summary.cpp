@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <skein/model/background_flow.hpp>
+#include <skein/model/section_repulsion.hpp>
 #include <skein/scene/calibration.hpp>
 #include <skein/scene/fiber.hpp>
 #include <skein/scene/spring_network.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace skein {
 namespace {
+
+constexpr std::size_t max_described = 10;  // fibers
 
 std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const int index) {
   const FiberConfig& config = fiber.config;
@@ -41,6 +46,31 @@ std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const i
   return text;
 }
 
+// The flow presses with a straight piece of fiber; those that it can bend give way. At contact: 32/15 strength
+// sqrt(R/range) a length side by side, 4 pi/3 strength R where fibers cross.
+std::string describe_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+  const double strength = scene.repulsion.strength, range = find_repulsion_range(scene.repulsion, fibers);
+  if (strength == 0.0) return {};
+  const double rate = make_background_flow(scene.flows)->typical_rate();
+  double radius = 0.0, length = 0.0;
+  for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f) {
+    radius = std::max(radius, fibers[f].config.radius);
+    const double straight =
+        4.0 * std::pow(measure_beam_stiffness(fibers[f]).bending / (scene.fluid.viscosity * rate), 0.25);
+    length = std::max(length, std::min(fibers[f].length(), straight));
+  }
+  std::string text = fmt::format(
+      "repulsion: of strength {:g} where gaps are below {:g}; fibers that touch push with about {:.3g} a length side "
+      "by "
+      "side, with {:.3g} where they cross",
+      strength, range, 32.0 / 15.0 * strength * std::sqrt(radius / range),
+      4.0 * std::numbers::pi / 3.0 * strength * radius);
+  if (rate > 0.0)
+    text += fmt::format("; the flow presses crossing ones with about {:.2g}",
+                        0.5 * scene.fluid.viscosity * rate * length * length);
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string describe_scene(const SceneConfig& scene) {
@@ -48,11 +78,10 @@ std::string describe_scene(const SceneConfig& scene) {
   std::string text;
   if (!scene.title.empty()) text += scene.title + "\n";
   text += fmt::format("{} fiber{}, {} nodes\n", fibers.size(), fibers.size() == 1 ? "" : "s", count_nodes(fibers));
-  constexpr std::size_t max_described = 10;
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f)
     text += describe_fiber(scene, fibers[f], static_cast<int>(f));
   if (fibers.size() > max_described) text += fmt::format("... and {} more\n", fibers.size() - max_described);
-  return text;
+  return text + describe_repulsion(scene, fibers);
 }
 
 }  // namespace skein

@@ -39,7 +39,8 @@ Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const 
       fibers_(make_fibers(scene.fibers)),
       fault_order_(read_fault_order()),
       dynamics_(fibers_, std::make_unique<SpringForces>(fibers_), make_background_flow(scene.flows),
-                add_fault(make_mobility(scene), fault_order_, current_step_)),
+                add_fault(make_mobility(scene), fault_order_, current_step_),
+                make_section_repulsion(scene.repulsion, fibers_)),
       faulty_dynamics_(dynamics_, fault_order_, current_step_),
       watched_dynamics_(fault_order_.target.empty() ? static_cast<RightHandSide&>(dynamics_) : faulty_dynamics_,
                         control),
@@ -53,7 +54,7 @@ Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const 
       progress_(progress, checkpoint == nullptr ? 0.0 : checkpoint->number("state.time"), scene.time.end,
                 checkpoint == nullptr ? 0 : checkpoint->integer("run.evaluations")),
       frame_position_("skein::Simulation::frame_position", state_.position.extent(0)),
-      guard_(fibers_),
+      guard_(fibers_, dynamics_.repulsion() != nullptr),
       last_checkpoint_(WallClock::now()),
       quiet_(quiet) {
   control_.watch(folder);
@@ -342,7 +343,7 @@ void Simulation::note_regimes(const Frame& frame) {
 }
 
 void Simulation::record_step(const StepReport& report) {
-  StepRecord record = make_step_record(fibers_, dynamics_.springs(), state_, report);
+  StepRecord record = make_step_record(fibers_, dynamics_, state_, report);
   record.evaluations = counters_.evaluations;
   record.estimated_error = counters_.estimated_error;
   const ErrorRecord errors = dynamics_.mobility().error_record();

@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/hydro/direct_mobility.hpp>
 #include <skein/model/background_flow.hpp>
+#include <skein/model/section_repulsion.hpp>
 #include <skein/model/spring_forces.hpp>
 
 namespace skein {
@@ -16,6 +17,7 @@ VelocityField compute_velocity_field(const SceneConfig& scene, const double time
   const Scalars blob = to_device("skein::velocity_field::blob", make_blobs(fibers));
   const Vectors force("skein::velocity_field::force", nodes.size());
   SpringForces(fibers).compute_forces(position, force);
+  if (const auto repulsion = make_section_repulsion(scene.repulsion, fibers)) repulsion->add_forces(position, force);
 
   VelocityField field;
   const Vectors velocity("skein::velocity_field::velocity", points.size());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -95,6 +96,39 @@ void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::
   }
 }
 
+// Sections of one fiber repel each other from 10 radii of arclength on, and a tight bend brings these to a gap of
+// about 4. Where a range is so short that sections see less than their spacing, fibers feel rough.
+void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
+                     std::vector<Problem>& warnings) {
+  if (scene.repulsion.strength == 0.0) return;
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    if (!reader.is_sound(reader.path_of("fiber", i))) return;
+    thinnest = std::min(thinnest, scene.fibers[i].radius);
+  }
+  const double range = scene.repulsion.range;
+  constexpr double least_radii = 0.01, most_radii = 4.0;
+  if (range > 0.0 && (range < least_radii * thinnest || range > most_radii * thinnest)) {
+    reader.add(
+        problems, "repulsion.range",
+        fmt::format("repulsion.range {} is not between {:g} and {:g}, {:g} and {:g} radii of the thinnest fiber",
+                    format_number(range), least_radii * thinnest, most_radii * thinnest, least_radii, most_radii));
+    return;
+  }
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    const FiberConfig& fiber = scene.fibers[i];
+    const double spacing = compute_node_spacing(fiber);
+    const double half_width = std::sqrt(4.0 * fiber.radius * (range > 0.0 ? range : thinnest));
+    if (half_width >= spacing) continue;
+    reader.add(
+        warnings, "repulsion.range",
+        fmt::format("repulsion.range is so short that a section of {} sees others within {:.3g} of it only, less "
+                    "than their distance {:.3g}: fibers feel each other's sections one by one",
+                    reader.path_of("fiber", i), half_width, spacing));
+    return;
+  }
+}
+
 // What a key of fmm would change must not be passed over; the tolerance and the like have a meaning in every scene.
 void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneReader& reader,
                          std::vector<Problem>& problems) {
@@ -148,6 +182,7 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
     if (reader.is_sound(path)) check_flow(scene.flows[i], path, reader, problems);
   }
   if (reader.is_sound("placement")) check_placement(scene.placement, reader, problems);
+  if (reader.is_sound("repulsion")) check_repulsion(scene, reader, problems, warnings);
   check_node_count(scene, reader, problems);
   if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
   if (!reader.is_sound("time")) return;

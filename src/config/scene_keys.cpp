@@ -134,6 +134,25 @@ void visit_placement(KeyVisitor& visitor, PlacementConfig& placement) {
   visitor.end_table();
 }
 
+void visit_repulsion(KeyVisitor& visitor, RepulsionConfig& repulsion) {
+  visitor.begin_table(
+      {"repulsion", false,
+       "What keeps fibers, and sections of one fiber with 10 radii or more of it between them, from "
+       "touching. Sections whose surfaces have a gap below range push each other along the line of "
+       "their centers, with the energy strength * spacing * spacing' * (1 - gap/range)^3 / 3. At contact "
+       "parallel fibers push with 2.1 strength sqrt(radius/range) per length, fibers that cross at right "
+       "angles with 4.2 strength radius. strength = viscosity * rate * length^2 / radius holds fibers that "
+       "a flow presses together about half a range apart, ten times as much 0.8 ranges; the length is "
+       "that of the fiber or, if it is shorter, of a piece that stays straight, 4 (EI/(viscosity "
+       "rate))^(1/4). `skein validate` compares these forces."});
+  visitor.number({"strength", "force / length", zero_or_more(), "of the repulsion; 0: none"}, repulsion.strength);
+  visitor.number({"range", "length", zero_or_more(),
+                  "distance of surfaces from which on they repel each other; 0: the radius of the thinnest fiber; "
+                  "0.01 to 4 of these"},
+                 repulsion.range);
+  visitor.end_table();
+}
+
 void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics) {
   visitor.begin_table({"hydrodynamics", false, "How velocities follow from forces."});
   visitor.choice({"method", "", {}, "how the sum over nodes is made"},
@@ -224,6 +243,7 @@ void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
   for (FlowConfig& flow : scene.flows) visit_flow(visitor, flow, scene.flows.size());
   for (FiberConfig& fiber : scene.fibers) visit_fiber(visitor, fiber, scene.fibers.size());
   visit_placement(visitor, scene.placement);
+  visit_repulsion(visitor, scene.repulsion);
   visit_hydrodynamics(visitor, scene.hydrodynamics);
   visit_time(visitor, scene.time);
   visit_output(visitor, scene.output);

@@ -2,23 +2,14 @@
 #include <numeric>
 #include <skein/core/error.hpp>
 #include <skein/model/spring_forces.hpp>
-#include <string>
 
+#include "device_list.hpp"
 #include "kernels/spring_force.hpp"
 #include "kernels/spring_strain.hpp"
 #include "kernels/spring_tangent.hpp"
 
 namespace skein {
 namespace {
-
-template <class Value>
-Kokkos::View<Value*, ExecSpace> copy_to_device(const char* label, const std::vector<Value>& values) {
-  const Kokkos::View<Value*, ExecSpace> device(std::string(label), values.size());
-  const auto mirror = Kokkos::create_mirror_view(device);
-  std::copy(values.begin(), values.end(), mirror.data());
-  Kokkos::deep_copy(device, mirror);
-  return device;
-}
 
 /// Appends `count` times the index of the fiber.
 void append_index(std::vector<int>& fiber_of, const int fiber, const int count) {

@@ -26,6 +26,8 @@ double Fiber::spacing() const { return 2.0 * config.radius * std::sin(std::numbe
 
 double Fiber::length() const { return config.sections * spacing(); }
 
+int Fiber::distant_sections() const { return static_cast<int>(std::ceil(distant_radii * config.radius / spacing())); }
+
 std::vector<Fiber> make_fibers(const std::vector<FiberConfig>& configs) {
   std::vector<Fiber> fibers;
   int first_node = 0;

@@ -57,11 +57,13 @@ class PartsTimer {
 }  // namespace
 
 FiberDynamics::FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<SpringForces> springs,
-                             std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility)
+                             std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility,
+                             std::unique_ptr<SectionRepulsion> repulsion)
     : fibers_(fibers),
       springs_(std::move(springs)),
       flow_(std::move(flow)),
       mobility_(std::move(mobility)),
+      repulsion_(std::move(repulsion)),
       blob_(to_device("skein::FiberDynamics::blob", make_blobs(fibers))),
       force_("skein::FiberDynamics::force", static_cast<std::size_t>(count_nodes(fibers))) {}
 
@@ -70,6 +72,7 @@ void FiberDynamics::compute_velocity(const double time, const ConstVectors& posi
   Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
   flow_->add_velocity(time, position, velocity);
   springs_->compute_forces(position, force_);
+  if (repulsion_ != nullptr) repulsion_->add_forces(position, force_);
   timer.begin_fluid();
   mobility_->add_velocity({position, force_, blob_}, position, velocity);
 }
@@ -78,8 +81,15 @@ void FiberDynamics::multiply(const ConstVectors& position, const ConstVectors& d
   PartsTimer timer(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), result, 0.0);
   springs_->compute_force_changes(position, displacement, force_);
+  if (repulsion_ != nullptr) repulsion_->add_force_changes(position, displacement, force_);
   timer.begin_fluid();
   mobility_->add_velocity({position, force_, blob_}, position, result);
+}
+
+std::vector<double> FiberDynamics::compute_energies(const ConstVectors& position) const {
+  std::vector<double> energy = springs_->compute_energies(position);
+  if (repulsion_ != nullptr) repulsion_->add_energies(position, energy);
+  return energy;
 }
 
 // One source and its own velocity, f / (4 pi viscosity blob), tell the viscosity of any mobility.

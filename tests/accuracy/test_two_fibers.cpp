@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <skein/analysis/centreline.hpp>
 #include <skein/hydro/direct_mobility.hpp>
 #include <skein/model/background_flow.hpp>
 #include <skein/model/spring_forces.hpp>
@@ -31,11 +32,18 @@ FiberConfig make_config(const Vec3 center, const Vec3 direction) {
 const FiberConfig upper = make_config({-0.012, 0.007, 0.0}, {1.0, -0.4, 0.5});
 const FiberConfig lower = make_config({0.012, -0.007, 0.0}, {1.0, -0.4, -0.5});
 
+/// Centrelines 0.016 apart in x, where the flow brings them together.
+const FiberConfig left = make_config({-0.008, 0.0, 0.001}, {0.0, 1.0, 0.2});
+const FiberConfig right = make_config({0.008, 0.001, 0.0}, {0.0, 0.3, 1.0});
+const FlowConfig compression{.kind = "planar_extension", .rate = 1.7};
+
 struct SimulatedFibers {
-  explicit SimulatedFibers(const std::vector<FiberConfig>& configs, const double step = 0.0)
+  explicit SimulatedFibers(const std::vector<FiberConfig>& configs, const double step = 0.0,
+                           const FlowConfig& flow = {}, const RepulsionConfig& repulsion = {})
       : fibers(make_fibers(configs)),
-        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow({FlowConfig{}}),
-                 std::make_unique<DirectMobility>(viscosity, Precision::in_double)),
+        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow({flow}),
+                 std::make_unique<DirectMobility>(viscosity, Precision::in_double),
+                 make_section_repulsion(repulsion, fibers)),
         state{0.0, 0, to_device("position", make_surface_nodes(fibers))},
         integrator(dynamics, make_options(step), count_nodes(fibers)) {}
 
@@ -56,16 +64,19 @@ struct SimulatedFibers {
   std::vector<Vec3> forces() const {
     const Vectors force("force", state.position.extent(0));
     dynamics.springs().compute_forces(state.position, force);
+    if (dynamics.repulsion() != nullptr) dynamics.repulsion()->add_forces(state.position, force);
     return to_host(force);
   }
 
   double energy() const {
     double sum = 0.0;
-    for (const double energy_of_fiber : dynamics.springs().compute_energies(state.position)) sum += energy_of_fiber;
+    for (const double energy_of_fiber : dynamics.compute_energies(state.position)) sum += energy_of_fiber;
     return sum;
   }
 
-  /// Of the springs: force times velocity, the rate at which the elastic energy falls.
+  double gap() const { return compute_smallest_gap(fibers, compute_centreline(fibers, state.position)); }
+
+  /// Of springs and repulsion: force times velocity, the rate at which their energy falls.
   double power() {
     const Vectors velocity("velocity", state.position.extent(0));
     dynamics.compute_velocity(state.time, state.position, velocity);
@@ -109,9 +120,8 @@ TEST(TwoFibers, TwentyLengthsApartEachMovesAsIfAlone) {
   EXPECT_GT(largest_distance(to_host(near.state.position), to_host(first.state.position), 0), 0.05 * length);
 }
 
-/// Elastic energy at the end, less what the power of the springs says; the mean power is used as the scale.
-double find_energy_defect(const double step) {
-  SimulatedFibers run({upper, lower}, step);
+/// Energy at the end, less what the power of springs and repulsion says; the mean power is used as the scale.
+double find_energy_defect(SimulatedFibers& run, const double step) {
   constexpr double end = 0.5;
   const int n_pairs = static_cast<int>(std::lround(end / (2.0 * step)));
   const double before = run.energy();
@@ -132,7 +142,11 @@ double find_energy_defect(const double step) {
 }
 
 TEST(TwoFibers, EnergyBalanceClosesAsTheStepsDo) {
-  const double coarse = find_energy_defect(0.005), fine = find_energy_defect(0.00125);
+  const auto defect = [](const double step) {
+    SimulatedFibers run({upper, lower}, step);
+    return find_energy_defect(run, step);
+  };
+  const double coarse = defect(0.005), fine = defect(0.00125);
   EXPECT_LT(fine, 1e-3);
   EXPECT_LT(fine, 0.15 * coarse);  // second order: 1/16
 }
@@ -159,6 +173,109 @@ TEST(TwoFibers, InAFluidAtRestTheEnergyFallsByWhatTheFluidDissipates) {
     return sum;
   };
   EXPECT_NEAR((energy_after(-moment) - energy_after(moment)) / (2.0 * moment), dissipation, 1e-5 * dissipation);
+}
+
+const RepulsionConfig repelling{2.6, 0.004};
+
+TEST(RepelledFibers, StayApartWhereOthersGoOnApproaching) {
+  SimulatedFibers repelled({left, right}, 0.0, compression, repelling), others({left, right}, 0.0, compression);
+  double smallest = repelled.gap();
+  EXPECT_GT(smallest, repelling.range);
+  for (double time = 0.05; time < 2.0; time += 0.05) {
+    repelled.go_to(time);
+    others.go_to(time);
+    smallest = std::min(smallest, repelled.gap());
+  }
+  EXPECT_GT(smallest, 0.2 * repelling.range);
+  EXPECT_LT(smallest, repelling.range);
+  EXPECT_LT(others.gap(), 0.6 * smallest);
+  repelled.go_to(5.0);
+  others.go_to(5.0);
+  EXPECT_GT(repelled.gap(), 0.5 * repelling.range);
+  EXPECT_LT(others.gap(), 0.1 * repelling.range);
+}
+
+TEST(RepelledFibers, HaveForcesAndTorquesThatBalance) {
+  SimulatedFibers run({left, right}, 0.0, compression, repelling);
+  run.go_to(1.0);
+  const auto force = run.forces(), position = to_host(run.state.position);
+  const auto sum = reference::sum_forces(position, force, 0, count_nodes(run.fibers));
+  EXPECT_LT(norm(sum.net), 1e-13 * sum.size);
+  EXPECT_LT(norm(sum.torque), 1e-13 * sum.moment);
+  EXPECT_GT(norm(reference::sum_forces(position, force, 0, run.fibers[0].n_nodes()).net), 1e-2 * sum.size);
+}
+
+TEST(RepelledFibers, HaveEnergyBalancesThatCloseAsTheStepsDo) {
+  const auto defect = [](const double step) {
+    SimulatedFibers run({left, right}, step, compression, repelling);
+    run.go_to(0.5);
+    EXPECT_LT(run.gap(), repelling.range);
+    const auto repulsion = [&run] {
+      std::vector<double> energy(2);
+      run.dynamics.repulsion()->add_energies(run.state.position, energy);
+      return energy[0] + energy[1];
+    };
+    const double before = repulsion(), all_before = run.energy();
+    const double found = find_energy_defect(run, step);
+    EXPECT_GT(std::abs(repulsion() - before), 0.05 * std::abs(run.energy() - all_before));  // it counts
+    return found;
+  };
+  const double coarse = defect(0.005), fine = defect(0.00125);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_LT(fine, 0.15 * coarse);
+}
+
+TEST(RepelledFibers, MoveToTheBitAsOthersWhileTheyAreApart) {
+  SimulatedFibers repelled({left, right}, 0.0, compression, {2.6, 0.001}), others({left, right}, 0.0, compression);
+  const auto is_same = [&] {
+    return to_host(ConstVectors(repelled.state.position)) == to_host(ConstVectors(others.state.position));
+  };
+  repelled.go_to(0.3);
+  others.go_to(0.3);
+  EXPECT_GT(others.gap(), 0.001);
+  EXPECT_TRUE(is_same());
+  repelled.go_to(2.5);
+  others.go_to(2.5);
+  EXPECT_FALSE(is_same());
+}
+
+TEST(RepelledFibers, AreMultipliedByTheChangeOfAllTheirForces) {
+  SimulatedFibers run({left, right}, 0.0, compression, repelling);
+  run.go_to(1.0);
+  const std::size_t n = run.state.position.extent(0);
+  const auto position = to_host(ConstVectors(run.state.position));
+  // Every section moves on its own, as a whole: springs within sections would hide the repulsion.
+  std::vector<Vec3> v(n);
+  for (std::size_t i = 0; i < n; ++i) v[i] = {std::sin(1.3 * static_cast<double>(i / 7)), 0.3, -0.5};
+  const double h = 1e-8;
+  const auto forces_at = [&](const double by) {
+    auto moved = position;
+    for (std::size_t i = 0; i < n; ++i) moved[i] = moved[i] + by * v[i];
+    run.state.position = to_device("moved", moved);
+    return run.forces();
+  };
+  auto force = forces_at(h);
+  const auto below = forces_at(-h);
+  for (std::size_t i = 0; i < n; ++i) force[i] = (0.5 / h) * (force[i] - below[i]);
+  const Vectors x = to_device("x", position), product("product", n), expected("expected", n);
+  DirectMobility(viscosity, Precision::in_double)
+      .add_velocity({x, to_device("force", force), to_device("blob", make_blobs(run.fibers))}, x, expected);
+  Linearization& a = *run.dynamics.linearization();
+  a.set_position(x);
+  a.multiply(to_device("v", v), product);
+  const auto found = to_host(ConstVectors(product)), wanted = to_host(ConstVectors(expected));
+  double error = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < n; ++i) error += norm(found[i] - wanted[i]), size += norm(wanted[i]);
+  EXPECT_LT(error, 1e-5 * size);
+  // Without the repulsion's share it would be another product.
+  SimulatedFibers others({left, right}, 0.0, compression);
+  Linearization& b = *others.dynamics.linearization();
+  b.set_position(x);
+  b.multiply(to_device("v", v), product);
+  const auto without = to_host(ConstVectors(product));
+  error = 0.0;
+  for (std::size_t i = 0; i < n; ++i) error += norm(without[i] - wanted[i]);
+  EXPECT_GT(error, 1e-3 * size);
 }
 
 }  // namespace

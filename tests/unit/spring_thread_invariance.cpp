@@ -1,11 +1,12 @@
 #include <cmath>
 #include <cstdio>
 #include <skein/core/runtime.hpp>
+#include <skein/model/section_repulsion.hpp>
 #include <skein/model/spring_forces.hpp>
 #include <string_view>
 
-// Prints a hash of the bits of spring forces and energies, for compare_thread_counts.cmake to compare between numbers
-// of threads. The first line says how many threads there were.
+// Prints a hash of the bits of forces and energies of springs and repulsion, for compare_thread_counts.cmake to compare
+// between numbers of threads. The first line says how many threads there were.
 
 namespace skein {
 namespace {
@@ -32,6 +33,16 @@ void print_hashes() {
     springs.compute_forces(position, force);
     print_hash("forces", to_host(force));
     print_hash("energies", springs.compute_energies(position));
+    // The two fibers lie in each other.
+    const SectionRepulsion repulsion(fibers, 1.7, 0.0123);
+    std::vector<double> energy(fibers.size());
+    repulsion.add_forces(position, force);
+    print_hash("repelled", to_host(force));
+    repulsion.add_force_changes(position, force, force);
+    print_hash("changed", to_host(force));
+    repulsion.add_energies(position, energy);
+    print_hash("repulsion", energy);
+    print_hash("moments", repulsion.compute_moments(position));
   }
 }
 

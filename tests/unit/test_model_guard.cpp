@@ -39,7 +39,11 @@ TEST(ModelGuard, TellsEachKindOnceWithItsNumbersAndCountsSteps) {
             std::string::npos)
       << news[0];
   EXPECT_NE(news[1].find("62 %"), std::string::npos) << news[1];
-  EXPECT_NE(news[2].find("0.0039 apart, less than a blob, 0.004"), std::string::npos) << news[2];
+  EXPECT_NE(news[2].find("0.0039 apart, less than a blob, 0.004: nothing keeps"), std::string::npos) << news[2];
+  ModelGuard with_repulsion(fibers, true);
+  const auto weak = with_repulsion.look(make_record(0.0039, 0.0, 0.0), 0.0);
+  ASSERT_EQ(weak.size(), 1u);
+  EXPECT_NE(weak[0].find("take a larger repulsion.strength"), std::string::npos) << weak[0];
 
   EXPECT_TRUE(guard.look(make_record(-0.002, 0.0, 2.0 / fibers[1].spacing()), 0.71).empty());
   EXPECT_TRUE(guard.look(make_record(0.001, 0.0, 0.0), 0.3).empty());

@@ -39,7 +39,7 @@ struct FiberRun {
   explicit FiberRun(const SceneConfig& scene, const FmmOptions* fmm = nullptr)
       : fibers(make_fibers(scene.fibers)),
         dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-                 make_some_mobility(scene.fluid.viscosity, fmm)),
+                 make_some_mobility(scene.fluid.viscosity, fmm), make_section_repulsion(scene.repulsion, fibers)),
         state{0.0, 0, to_device("position", make_surface_nodes(fibers))},
         integrator(make_integrator(scene, fibers, dynamics)),
         end(scene.time.end) {}
@@ -163,6 +163,19 @@ TEST(Restart, OfEveryOtherMethodIsExactAtEveryStep) {
                                          time.max_step = is_explicit ? 4e-4 : 0.02;
                                        }),
                             30);
+}
+
+TEST(Restart, OfFibersThatRepelEachOtherIsExactAtEveryStep) {
+  for (const char* method : {"rkc2", "trbdf2"}) {
+    SceneConfig scene =
+        make_scene(3, [&](TimeConfig& time) { time.method = method, time.end = 0.6, time.max_step = 0.02; });
+    scene.repulsion = {1.9, 0.02};
+    FiberRun run(scene);
+    std::vector<double> energy(3);
+    run.dynamics.repulsion()->add_energies(run.state.position, energy);
+    EXPECT_GT(energy[1], 0.0);
+    expect_exact_restarts(scene, 20);
+  }
 }
 
 TEST(Restart, WithAnotherNumberOfNodesIsRefused) {

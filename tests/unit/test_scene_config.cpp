@@ -48,6 +48,7 @@ SceneConfig make_unusual_scene() {
   scene.fibers[1].reach_around = 4;
   scene.placement = {"grid", {0.1, 1.0 / 3.0, -7.0}, {2.0, 3.0, 4.0}, {0.3, 1.0 / 7.0, 2.0},
                      7,      {3.0, 4.0, 1.0 / 3.0},  1e-3 / 3.0,      "random"};
+  scene.repulsion = {7.0 / 3.0, 1e-3 / 7.0};
   scene.hydrodynamics.precision = "single";
   scene.time = {"euler", 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0};
   scene.output = {1.0 / 30.0, "single"};
@@ -98,6 +99,8 @@ void expect_same(const SceneConfig& a, const SceneConfig& b) {
     EXPECT_EQ(a.fibers[i].reach_along, b.fibers[i].reach_along);
     EXPECT_EQ(a.fibers[i].reach_around, b.fibers[i].reach_around);
   }
+  EXPECT_EQ(a.repulsion.strength, b.repulsion.strength);
+  EXPECT_EQ(a.repulsion.range, b.repulsion.range);
   EXPECT_EQ(a.hydrodynamics.method, b.hydrodynamics.method);
   EXPECT_EQ(a.hydrodynamics.precision, b.hydrodynamics.precision);
   EXPECT_EQ(a.time.method, b.time.method);
@@ -198,6 +201,25 @@ TEST(SceneFile, AGridIsMadeOfWholeNumbersAndItsNodesAreCounted) {
   EXPECT_EQ(problems_of(fiber + "grid = [10, 10, 10]\n").size(), 0u);
   EXPECT_EQ(problems_of(fiber + "grid = [10, 10, 11]\n").size(), 1u);
   EXPECT_EQ(problems_of("[fiber]\n[placement]\nkind = \"grid\"\ngrid = [100, 101, 1]\n").size(), 1u);
+}
+
+TEST(SceneFile, ARepulsionFitsTheThinnestFiber) {
+  EXPECT_EQ(read("[fiber]\n").repulsion.strength, 0.0);
+  const std::string start = "[[fiber]]\n[[fiber]]\nradius = 0.003\n[repulsion]\nstrength = 1.5\nrange = ";
+  for (const char* sound : {"0", "0.012", "3e-5"}) EXPECT_EQ(problems_of(start + sound + "\n").size(), 0u) << sound;
+  for (const char* wrong : {"0.0121", "2.9e-5", "-0.001", "nan", "\"0.001\""})
+    EXPECT_EQ(problems_of(start + wrong + "\n").size(), 1u) << wrong;
+  EXPECT_EQ(problems_of("[fiber]\n[repulsion]\nrange = 7\n").size(), 0u);  // there is none
+  EXPECT_EQ(problems_of("[fiber]\n[repulsion]\nstrength = -1\n").size(), 1u);
+  EXPECT_EQ(problems_of("[fiber]\n[[repulsion]]\nstrength = 1\n[[repulsion]]\n").size(), 1u);
+  // 18 nodes: the spacing is 2 R sin(10 degrees), and sections see others within sqrt(4 R range).
+  const auto n_warnings = [](const std::string& range) {
+    return read_scene_text("[fiber]\n[repulsion]\nstrength = 1.5\nrange = " + range + "\n", "scene.toml", {})
+        .warnings.size();
+  };
+  EXPECT_EQ(n_warnings("1.5e-4"), 1u);
+  EXPECT_EQ(n_warnings("1.52e-4"), 0u);
+  EXPECT_EQ(n_warnings("0"), 0u);
 }
 
 TEST(SceneOverrides, TakeTomlAndBareWords) {

@@ -27,11 +27,8 @@ double compute_length(std::span<const Vec3> centreline);
 /// From the first section to the last, length.
 Vec3 compute_end_to_end(std::span<const Vec3> centreline);
 
-/// Two sections of one fiber are distant from each other when more than this many radii of fiber lie between them.
-inline constexpr double distant_radii = 10.0;
-
-/// The smallest distance between the surfaces of two fibers, or of distant sections of one, taken as spheres about the
-/// sections' centroids; negative where they overlap. Infinite where there is no such pair. length
+/// The smallest distance between the surfaces of two fibers, or of distant sections of one (see distant_radii), taken
+/// as spheres about the sections' centroids; negative where they overlap. Infinite where there is no such pair. length
 double compute_smallest_gap(const std::vector<Fiber>& fibers, const std::vector<Vec3>& centreline);
 
 }  // namespace skein

@@ -78,6 +78,13 @@ struct PlacementConfig {
   std::string orientation = "as_written";  ///< "as_written", "random"
 };
 
+/// What keeps fibers, and distant sections of one, from touching. Two sections with a gap g < range between their
+/// surfaces, each standing for its fiber's spacing, have the energy strength spacing spacing' (1 - g/range)^3 / 3.
+struct RepulsionConfig {
+  double strength = 0.0;  ///< force / length; 0: none
+  double range = 0.0;     ///< length; 0: the radius of the thinnest fiber
+};
+
 struct HydrodynamicsConfig {
   std::string method = "auto";          ///< "auto", "direct", "fmm"
   std::string precision = "auto";       ///< "auto", "double", "single": arithmetic of a pair
@@ -115,6 +122,7 @@ struct SceneConfig {
   std::vector<FlowConfig> flows{FlowConfig{}};
   std::vector<FiberConfig> fibers;
   PlacementConfig placement;
+  RepulsionConfig repulsion;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;

@@ -8,6 +8,9 @@
 
 namespace skein {
 
+/// Two sections of one fiber are distant from each other when at least this many radii of fiber lie between them.
+inline constexpr double distant_radii = 10.0;
+
 /// Where one fiber's nodes and sections lie in the arrays of all fibers, and its straight shape.
 /// Node `a` of section `s` has the index first_node + s * nodes_per_section + a.
 struct Fiber {
@@ -19,6 +22,8 @@ struct Fiber {
   int n_nodes() const { return config.sections * config.nodes_per_section; }
   double spacing() const;  ///< between sections: the chord 2 R sin(pi / N_c) between neighbours on a section, length
   double length() const;   ///< N_f * spacing, length
+  /// Sections whose numbers differ by this much or more are distant from each other.
+  int distant_sections() const;
 };
 
 /// Fibers in the order of the scene, one after the other without gaps.

@@ -2,6 +2,7 @@
 
 #include <skein/hydro/mobility.hpp>
 #include <skein/model/background_flow.hpp>
+#include <skein/model/section_repulsion.hpp>
 #include <skein/model/spring_forces.hpp>
 #include <skein/scene/fiber.hpp>
 #include <skein/time/fiber_linearization.hpp>
@@ -13,11 +14,14 @@
 
 namespace skein {
 
-/// Fibers in a viscous fluid: velocity = background flow + M(position) spring force(position).
+/// Fibers in a viscous fluid: velocity = background flow + M(position) force(position), the force of springs and of the
+/// repulsion where there is one.
 class FiberDynamics final : public RightHandSide {
  public:
+  /// @param repulsion  null: none
   FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<SpringForces> springs,
-                std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility);
+                std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility,
+                std::unique_ptr<SectionRepulsion> repulsion = nullptr);
 
   void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) override;
 
@@ -32,6 +36,9 @@ class FiberDynamics final : public RightHandSide {
   void visit_memory(MemoryVisitor& visitor) { mobility_->visit_memory(visitor); }
   std::vector<std::string> take_messages() { return mobility_->take_messages(); }
 
+  /// Of springs and repulsion, force * length. @returns [n_fibers]
+  std::vector<double> compute_energies(const ConstVectors& position) const;
+
   /// M(position) dF/dx: neither the flow's gradient nor the change of M, which are no faster than the shear.
   Linearization* linearization() override;
 
@@ -44,6 +51,7 @@ class FiberDynamics final : public RightHandSide {
   const Seconds& seconds() const { return seconds_; }
 
   const SpringForces& springs() const { return *springs_; }
+  const SectionRepulsion* repulsion() const { return repulsion_.get(); }  ///< null: none
   const BackgroundFlow& flow() const { return *flow_; }
   const Mobility& mobility() const { return *mobility_; }
 
@@ -55,6 +63,7 @@ class FiberDynamics final : public RightHandSide {
   std::unique_ptr<SpringForces> springs_;
   std::unique_ptr<BackgroundFlow> flow_;
   std::unique_ptr<Mobility> mobility_;
+  std::unique_ptr<SectionRepulsion> repulsion_;
   Scalars blob_;
   Vectors force_;
   std::int64_t evaluations_ = 0;

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <skein/core/types.hpp>
+
+namespace skein {
+
+/// Sections of a fiber that share a box.
+inline constexpr int sections_per_run = 16;
+
+/// Where one fiber's nodes, sections and runs lie in the arrays of all fibers.
+struct BoxedFiber {
+  int first_node = 0;
+  int first_section = 0;
+  int first_run = 0;
+  int n_sections = 0;
+  int nodes_per_section = 0;
+  int distant_sections = 0;  ///< see Fiber::distant_sections
+  double radius = 0.0;       ///< length
+  double spacing = 0.0;      ///< of sections, length
+};
+
+/// Centroids of all sections, with boxes about short runs of them and about fibers, so that a search passes over what
+/// is far away.
+template <class Space>
+struct SectionBoxes {
+  Kokkos::View<BoxedFiber*, Space> fiber;
+  Kokkos::View<int*, Space> fiber_of_run;
+  VectorView<Space> centroid;               ///< [n_sections, 3], length
+  VectorView<Space> run_low, run_high;      ///< [n_runs, 3], length
+  VectorView<Space> fiber_low, fiber_high;  ///< [n_fibers, 3], length
+};
+
+/// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
+template <class Space>
+void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& vector,
+                           const VectorView<Space>& mean);
+
+/// Overwrites centroids and boxes with those of nodes at `position`, [n_nodes, 3].
+template <class Space>
+void locate_sections(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position);
+
+KOKKOS_INLINE_FUNCTION Vec3 lower_of(const Vec3 a, const Vec3 b) {
+  return {a.x < b.x ? a.x : b.x, a.y < b.y ? a.y : b.y, a.z < b.z ? a.z : b.z};
+}
+KOKKOS_INLINE_FUNCTION Vec3 upper_of(const Vec3 a, const Vec3 b) {
+  return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
+}
+
+/// Low and high corner of the box about rows [first, end) of corners.
+template <class Space>
+KOKKOS_INLINE_FUNCTION void enclose(const VectorView<Space>& lows, const VectorView<Space>& highs, const int first,
+                                    const int end, Vec3& low, Vec3& high) {
+  low = load(lows, first);
+  high = load(highs, first);
+  for (int i = first + 1; i < end; ++i) {
+    low = lower_of(low, load(lows, i));
+    high = upper_of(high, load(highs, i));
+  }
+}
+
+/// Square of the distance between two boxes, 0 where they overlap. No less than rounding below that of two points in
+/// them.
+KOKKOS_INLINE_FUNCTION double squared_distance(const Vec3 low, const Vec3 high, const Vec3 other_low,
+                                               const Vec3 other_high) {
+  const auto between = [](const double a_low, const double a_high, const double b_low, const double b_high) {
+    const double above = b_low - a_high, below = a_low - b_high;
+    const double gap = above > below ? above : below;
+    return gap > 0.0 ? gap : 0.0;
+  };
+  const Vec3 d{between(low.x, high.x, other_low.x, other_high.x), between(low.y, high.y, other_low.y, other_high.y),
+               between(low.z, high.z, other_low.z, other_high.z)};
+  return dot(d, d);
+}
+
+/// Calls body(fiber, run) for each run, in order, that has points within range + margin + the radius of its fiber of
+/// the box from low to high.
+template <class Space, class Body>
+KOKKOS_INLINE_FUNCTION void for_each_near_run(const SectionBoxes<Space>& boxes, const Vec3 low, const Vec3 high,
+                                              const double margin, const Body& body) {
+  const int n_fibers = boxes.fiber.extent_int(0);
+  for (int f = 0; f < n_fibers; ++f) {
+    const BoxedFiber& fiber = boxes.fiber(f);
+    const double reach = margin + fiber.radius;
+    const double limit = reach * reach;
+    if (squared_distance(low, high, load(boxes.fiber_low, f), load(boxes.fiber_high, f)) > limit) continue;
+    const int end = fiber.first_run + math::ceil_div(fiber.n_sections, sections_per_run);
+    for (int run = fiber.first_run; run < end; ++run)
+      if (squared_distance(low, high, load(boxes.run_low, run), load(boxes.run_high, run)) <= limit) body(f, run);
+  }
+}
+
+}  // namespace skein
