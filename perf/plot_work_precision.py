@@ -1,6 +1,7 @@
 """Evaluations and processor time against error on three shear orbits, every method: runs what is missing, then draws.
 
-    /usr/bin/python3 perf/plot_work_precision.py build/openmp/bin/work_precision [folder] [nodes per section] [full]
+    /usr/bin/python3 perf/plot_work_precision.py build/openmp/bin/work_precision [folder] [nodes per section]
+        [full] [orbits=0.139,0.196,0.523]
 
 Two runs at a time, a thread each. Results stay in the folder, one line and one file of positions for each run: a call
 that was broken off goes on where it was, a second call only draws. `auto` takes no run of its own, only a look at what it
@@ -30,7 +31,10 @@ COLOURS = {"rkc2": "tab:blue", "trbdf2": "tab:orange", "bs3": "tab:green", "rk4"
 
 def call(program, *arguments):
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OMP_PROC_BIND": "false"}
-    return subprocess.run([program, *arguments], capture_output=True, text=True, check=False, env=environment).stdout
+    result = subprocess.run([program, *arguments], capture_output=True, text=True, check=False, env=environment)
+    if result.returncode < 0:
+        sys.exit(f"{' '.join(arguments)} was killed")
+    return result.stdout
 
 
 def run(program, folder, length, end, nodes, method, tolerance):
@@ -56,24 +60,27 @@ def chosen(program, folder, length, nodes, tolerance):
 
 def main():
     full = "full" in sys.argv
-    words = [word for word in sys.argv[1:] if word != "full"]
+    asked = [word.split("=")[1].split(",") for word in sys.argv[1:] if word.startswith("orbits=")]
+    orbits = {title: orbit for title, orbit in ORBITS.items() if not asked or str(orbit[0]) in asked[0]}
+    words = [word for word in sys.argv[1:] if word != "full" and not word.startswith("orbits=")]
     program = words[0]
     folder = pathlib.Path(words[1] if len(words) > 1 else "work_precision")
     nodes = int(words[2]) if len(words) > 2 else 6
     folder.mkdir(parents=True, exist_ok=True)
     exact = "1e-8" if nodes < 12 else "1e-7"
 
-    runs = [(*orbit, nodes, method, tolerance) for orbit in ORBITS.values() for method in METHODS
+    runs = [(*orbit, nodes, method, tolerance) for orbit in orbits.values() for method in METHODS
             for tolerance in TOLERANCES if full or method in ("rkc2", "trbdf2") or orbit == (0.139, 6.0)]
-    runs += [(*orbit, nodes, "rkc2", exact) for orbit in ORBITS.values()]
-    runs.sort(key=lambda one: -one[0] / float(one[4]))
+    runs += [(*orbit, nodes, "rkc2", exact) for orbit in orbits.values()]
+    runs.sort(key=lambda one: one[0] / float(one[4]))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         for _ in pool.map(lambda one: run(program, folder, *one), runs):
             pass
 
-    figure, axes = plt.subplots(2, len(ORBITS), figsize=(13, 7), sharey="row", constrained_layout=True)
+    figure, axes = plt.subplots(2, len(orbits), figsize=(1 + 4 * len(orbits), 7), sharey="row", squeeze=False,
+                                constrained_layout=True)
     print("orbit,method,tolerance,evaluations,seconds,error,error over tolerance,estimates over true error,chosen")
-    for column, (title, (length, end)) in enumerate(ORBITS.items()):
+    for column, (title, (length, end)) in enumerate(orbits.items()):
         _, reference = run(program, folder, length, end, nodes, "rkc2", exact)
         choice = {t: chosen(program, folder, length, nodes, t) for t in TOLERANCES}
         taken = {"work": [], "seconds": [], "error": []}
