@@ -66,7 +66,9 @@ struct CellChoice {
 /// cloud, where a box has 189 far pairs instead of three, twice as many.
 CellChoice choose_cell(const Nodes& nodes, const double (&corner)[3], const double side, const int leaf_size) {
   const int n = nodes.extent_int(0);
-  const int stride = math::larger(1, n / n_sampled);
+  // Enough to see cells of an eighth of what is aimed at: there a thick line has split across its width, too.
+  const std::int64_t n_wanted = std::max<std::int64_t>(n_sampled, std::int64_t{12} * n / leaf_size);
+  const int stride = math::larger(1, static_cast<int>(n / n_wanted));
   const int n_keys = math::ceil_div(n, stride);
   const KeyOf key_of = make_key_of(corner, side, max_key_depth);
   std::vector<std::uint64_t> keys(static_cast<std::size_t>(n_keys));
@@ -82,7 +84,7 @@ CellChoice choose_cell(const Nodes& nodes, const double (&corner)[3], const doub
   double cells = 1.0;
   for (int level = 1; level <= max_key_depth; ++level) {
     const double finer = cells + n_cells[level];
-    const bool is_thin = n_keys < 4.0 * finer;
+    const bool is_thin = n_keys < 1.5 * finer;
     if (!is_thin) slope = std::clamp(std::log2(finer / cells), 0.5, 3.0);
     const double aimed = leaf_size * std::exp2(0.5 * std::max(0.0, slope - 1.0));
     const double needed = static_cast<double>(n) / aimed / cells;  // more cells than there are here, a factor

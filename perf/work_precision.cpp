@@ -2,13 +2,15 @@
 // perf/stability_atlas.py. Arguments are key=value; fewer nodes on a section keep the bending stiffness.
 
 #include <skein/core/runtime.hpp>
+#include <skein/core/stopwatch.hpp>
 #include <skein/hydro/direct_mobility.hpp>
 #include <skein/time/fiber_dynamics.hpp>
 #include <skein/time/make_integrator.hpp>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdint>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
@@ -75,6 +77,61 @@ SceneConfig make_scene(const Choice& choice) {
   return scene;
 }
 
+/// Positions of all nodes at multiples of an interval, raw doubles; nowhere where the name is empty.
+class SampleFile {
+ public:
+  SampleFile(const std::string& name, const double interval, const std::size_t n_nodes)
+      : interval_(interval), position_("sample", n_nodes) {
+    if (!name.empty()) file_.open(name, std::ios::binary);
+  }
+
+  void write_up_to(const double time, const Integrator& integrator) {
+    for (; static_cast<double>(count_) * interval_ <= time * (1.0 + 1e-14); ++count_) {
+      integrator.interpolate(std::min(time, static_cast<double>(count_) * interval_), position_);
+      for (const Vec3 x : to_host(ConstVectors(position_))) {
+        const double values[3] = {x.x, x.y, x.z};
+        file_.write(reinterpret_cast<const char*>(values), sizeof values);
+      }
+    }
+  }
+
+ private:
+  double interval_;
+  Vectors position_;
+  std::int64_t count_ = 1;
+  std::ofstream file_;
+};
+
+/// Sums over the steps of a run.
+struct Tally {
+  std::int64_t rejected = 0, stages = 0;
+  double error = 0.0;        ///< over tolerance
+  double local_error = 0.0;  ///< length
+  double last_dt = 1.0;
+  double seconds = 0.0, cpu_seconds = 0.0;
+
+  void add(const StepReport& report) {
+    rejected += report.rejected;
+    stages += report.stages;
+    error += report.error;
+    local_error += report.local_error;
+    last_dt = report.dt;
+  }
+};
+
+void print_step(const StepReport& report, const State& state) {
+  std::printf("step %lld t %.4f dt %.3e error %.3g stages %d radius %.4g rejected %d %s\n",
+              static_cast<long long>(state.step), state.time, report.dt, report.error, report.stages,
+              report.spectral_radius, report.rejected, report.rejection.c_str());
+}
+
+double largest_distance(const ConstVectors& a, const ConstVectors& b) {
+  const auto first = to_host(a), second = to_host(b);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < first.size(); ++i) largest = std::max(largest, norm(first[i] - second[i]));
+  return largest;
+}
+
 int run(const Choice& choice) {
   const SceneConfig scene = make_scene(choice);
   const auto fibers = make_fibers(scene.fibers);
@@ -82,56 +139,39 @@ int run(const Choice& choice) {
                          std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double));
   const auto integrator = make_integrator(scene, fibers, dynamics);
   State state{0.0, 0, to_device("position", make_surface_nodes(fibers))};
-  const Vectors sample("sample", state.position.extent(0));
-  std::ofstream out;
-  if (!choice.output.empty()) out.open(choice.output, std::ios::binary);
-  std::int64_t rejected = 0, samples = 1;
-  double error = 0.0, reported = 0.0, work = 0.0, last_dt = 1.0;
-  bool failed = false;
   const Vectors before("before", state.position.extent(0));
-  double speed = 0.0;  // of nodes over the last step, shear rate times length: large where steps only alternate
-  const auto start = std::chrono::steady_clock::now();
+  SampleFile samples(choice.output, choice.sample, state.position.extent(0));
+  Tally tally;
+  bool failed = false;
+  const auto start = WallClock::now();
   const std::clock_t cpu_start = std::clock();
   try {
     while (state.time < choice.end) {
       Kokkos::deep_copy(before, state.position);
       const StepReport report = integrator->advance(state, choice.end);
-      rejected += report.rejected;
-      last_dt = report.dt;
-      error += report.error;
-      reported += report.local_error / fibers[0].length();
-      work += report.stages;
-      if (choice.verbose)
-        std::printf("step %lld t %.4f dt %.3e error %.3g stages %d radius %.4g rejected %d %s\n",
-                    static_cast<long long>(state.step), state.time, report.dt, report.error, report.stages,
-                    report.spectral_radius, report.rejected, report.rejection.c_str());
-      for (; static_cast<double>(samples) * choice.sample <= state.time * (1.0 + 1e-14); ++samples) {
-        integrator->interpolate(std::min(state.time, static_cast<double>(samples) * choice.sample), sample);
-        for (const Vec3 x : to_host(ConstVectors(sample))) {
-          const double values[3] = {x.x, x.y, x.z};
-          out.write(reinterpret_cast<const char*>(values), sizeof values);
-        }
-      }
+      tally.add(report);
+      if (choice.verbose) print_step(report, state);
+      samples.write_up_to(state.time, *integrator);
     }
   } catch (const std::exception& failure) {
     std::printf("failed t=%.4f %s\n", state.time, failure.what());
     failed = true;
   }
-  const auto last = to_host(ConstVectors(state.position)), first = to_host(ConstVectors(before));
-  for (std::size_t i = 0; i < last.size(); ++i) speed = std::max(speed, norm(last[i] - first[i]));
-  speed /= last_dt * make_background_flow(scene.flows)->typical_rate() * fibers[0].length();
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const double cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  tally.seconds = seconds_since(start);
+  tally.cpu_seconds = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+
+  const double length = fibers[0].length();
+  // Of nodes over the last step, shear rate times length: large where steps only alternate.
+  const double speed = largest_distance(state.position, before) /
+                       (tally.last_dt * make_background_flow(scene.flows)->typical_rate() * length);
+  const auto n_steps = static_cast<double>(std::max<std::int64_t>(1, state.step));
   std::printf(
       "method=%s integrator=%s tolerance=%g nodes=%d sections=%d length=%.6g stiffness=%g t=%.6g evaluations=%lld "
-      "steps=%lld "
-      "rejected=%lld seconds=%.3f cpu=%.3f reported=%.4g mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
+      "steps=%lld rejected=%lld seconds=%.3f cpu=%.3f reported=%.4g mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
       choice.method.c_str(), key_of(integrator->describe()).c_str(), choice.tolerance, choice.nodes,
-      fibers[0].config.sections, fibers[0].length(), choice.stiffness, state.time,
-      static_cast<long long>(dynamics.evaluations()), static_cast<long long>(state.step),
-      static_cast<long long>(rejected), seconds, cpu_seconds, reported,
-      error / static_cast<double>(std::max<std::int64_t>(1, state.step)),
-      work / static_cast<double>(std::max<std::int64_t>(1, state.step)), speed);
+      fibers[0].config.sections, length, choice.stiffness, state.time, static_cast<long long>(dynamics.evaluations()),
+      static_cast<long long>(state.step), static_cast<long long>(tally.rejected), tally.seconds, tally.cpu_seconds,
+      tally.local_error / length, tally.error / n_steps, static_cast<double>(tally.stages) / n_steps, speed);
   return failed ? 76 : 0;
 }
 
