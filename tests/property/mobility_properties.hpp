@@ -9,6 +9,7 @@
 #include "tests/reference/regularized_stokeslet_reference.hpp"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <ostream>
 
@@ -30,18 +31,16 @@ class MobilityProperties : public ::testing::TestWithParam<Row> {
   /// Velocities at other points than the sources' own array, even where these are equal.
   std::vector<Vec3> compute_at(const reference::PointForces& from, const std::vector<Vec3>& target,
                                const double viscosity) const {
-    const auto mobility = GetParam().make(viscosity);
     const Vectors velocity("test::velocity", target.size());
-    mobility->add_velocity(on_device(from), to_device("test::target", target), velocity);
+    mobility_of(viscosity).add_velocity(on_device(from), to_device("test::target", target), velocity);
     return to_host(velocity);
   }
 
   /// Velocities of the sources: the targets are the same array.
   std::vector<Vec3> compute(const reference::PointForces& from, const double viscosity) const {
-    const auto mobility = GetParam().make(viscosity);
     const Sources sources = on_device(from);
     const Vectors velocity("test::velocity", from.position.size());
-    mobility->add_velocity(sources, sources.position, velocity);
+    mobility_of(viscosity).add_velocity(sources, sources.position, velocity);
     return to_host(velocity);
   }
 
@@ -49,6 +48,17 @@ class MobilityProperties : public ::testing::TestWithParam<Row> {
     return {to_device("test::position", from.position), to_device("test::force", from.force),
             to_device("test::blob", from.blob)};
   }
+
+  /// Kept for the few viscosities that are drawn: to make some takes far longer than to use them.
+  Mobility& mobility_of(const double viscosity) const {
+    if (kept_.size() > n_viscosities) kept_.clear();
+    std::unique_ptr<Mobility>& mobility = kept_[viscosity];
+    if (mobility == nullptr) mobility = GetParam().make(viscosity);
+    return *mobility;
+  }
+
+ private:
+  mutable std::map<double, std::unique_ptr<Mobility>> kept_;
 };
 
 }  // namespace skein
