@@ -12,6 +12,8 @@
 #include <map>
 #include <memory>
 #include <ostream>
+#include <string>
+#include <utility>
 
 namespace skein {
 
@@ -50,15 +52,15 @@ class MobilityProperties : public ::testing::TestWithParam<Row> {
   }
 
   /// Kept for the few viscosities that are drawn: to make some takes far longer than to use them.
-  Mobility& mobility_of(const double viscosity) const {
-    if (kept_.size() > n_viscosities) kept_.clear();
-    std::unique_ptr<Mobility>& mobility = kept_[viscosity];
+  static Mobility& mobility_of(const double viscosity) {
+    std::unique_ptr<Mobility>& mobility = kept_[{GetParam().name, viscosity}];
     if (mobility == nullptr) mobility = GetParam().make(viscosity);
     return *mobility;
   }
+  static void TearDownTestSuite() { kept_.clear(); }
 
  private:
-  mutable std::map<double, std::unique_ptr<Mobility>> kept_;
+  static inline std::map<std::pair<std::string, double>, std::unique_ptr<Mobility>> kept_;
 };
 
 }  // namespace skein
