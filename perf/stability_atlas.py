@@ -19,7 +19,11 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
 
+MARKERS = {"sections ovalize": "o", "sections ovalize without bursting": "o", "Newton's method stalls": "s",
+           "GMRES stalls": "X", "none up to the largest step tried": "^"}
+WORDS = {"o": "sections ovalize", "s": "Newton's method stalls", "X": "GMRES stalls", "^": "stable as far as tried"}
 METHODS = ("euler", "bs3", "rk4", "rkc2", "trbdf2")
 LARGEST = 0.5
 
@@ -87,7 +91,7 @@ def main():
         writer.writerow(["method", "varied", "value", *middle, "largest_stable_step", "way_it_fails"])
         for axis, (name, values) in zip(axes, rows.items()):
             for method in METHODS:
-                steps = []
+                steps, ways = [], []
                 for value in values:
                     point = {**middle, name: value}
                     key = json.dumps([method, point])
@@ -97,13 +101,21 @@ def main():
                         print(method, point, *known[key], flush=True)
                     step, way = known[key]
                     steps.append(step)
+                    ways.append(way)
                     writer.writerow([method, name, value, *point.values(), f"{step:.4g}", way])
-                axis.loglog(values, steps, "o-", label=method)
+                (line,) = axis.loglog(values, steps, "-", label=method)
+                for value, step, way in zip(values, steps, ways):
+                    axis.plot(value, step, MARKERS.get(way, "D"), color=line.get_color(), markersize=7)
+            axis.set_xticks(values, [f"{value:g}" for value in values])
+            axis.minorticks_off()
             axis.set_xlabel({"stiffness": "k over the paper's", "blob": "blob over the paper's",
                              "nodes": "nodes on a section", "sections": "sections"}[name])
             axis.grid(True, which="both", alpha=0.2)
     axes[0].set_ylabel(f"largest stable step (at most {LARGEST} is tried)")
     axes[0].legend()
+    seen = {MARKERS[way]: WORDS[MARKERS[way]] for _, way in known.values() if way in MARKERS}
+    axes[-1].legend(handles=[Line2D([], [], color="0.4", marker=marker, linestyle="", label=words)
+                             for marker, words in seen.items()], loc="lower left", title="beyond it")
     figure.savefig(folder / "stability_atlas.png", dpi=120)
     print(folder / "stability_atlas.png")
 
