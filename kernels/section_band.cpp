@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
 
 #include "kernels/simd.hpp"
 
@@ -41,39 +40,19 @@ void subtract_rows(const float* a, const int stride, const double* x, double* y,
   for (int i = 0; i < n_rows; ++i) y[i] -= result[i];
 }
 
+/// The same for as many packs as the rows fill, of n_packs at most.
+template <int n_packs>
+void subtract_filled_rows(const float* a, const int stride, const double* x, double* y, const int n_rows,
+                          const int n_columns) {
+  if constexpr (n_packs > 1)
+    if (n_rows <= (n_packs - 1) * lanes) return subtract_filled_rows<n_packs - 1>(a, stride, x, y, n_rows, n_columns);
+  subtract_rows<n_packs>(a, stride, x, y, n_rows, n_columns);
+}
+
 /// y -= A x, A with columns of `stride` floats.
 void subtract_product(const float* a, const int stride, const double* x, double* y, const int size) {
-  for (int row = 0; row < size; row += packs_at_once * lanes) {
-    const int n_rows = std::min(size - row, packs_at_once * lanes);
-    const auto go = [&](const auto n_packs) {
-      subtract_rows<decltype(n_packs)::value>(a + row, stride, x, y + row, n_rows, size);
-    };
-    switch ((n_rows + lanes - 1) / lanes) {
-      case 1:
-        go(std::integral_constant<int, 1>());
-        break;
-      case 2:
-        go(std::integral_constant<int, 2>());
-        break;
-      case 3:
-        go(std::integral_constant<int, 3>());
-        break;
-      case 4:
-        go(std::integral_constant<int, 4>());
-        break;
-      case 5:
-        go(std::integral_constant<int, 5>());
-        break;
-      case 6:
-        go(std::integral_constant<int, 6>());
-        break;
-      case 7:
-        go(std::integral_constant<int, 7>());
-        break;
-      default:
-        go(std::integral_constant<int, 8>());
-    }
-  }
+  for (int row = 0; row < size; row += packs_at_once * lanes)
+    subtract_filled_rows<packs_at_once>(a + row, stride, x, y + row, std::min(size - row, packs_at_once * lanes), size);
 }
 
 /// x = A x.

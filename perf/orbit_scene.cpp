@@ -1,10 +1,12 @@
 #include "perf/orbit_scene.hpp"
 
+#include <skein/hydro/direct_mobility.hpp>
 #include <skein/scene/calibration.hpp>
 #include <skein/scene/fiber.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace skein::perf {
@@ -22,6 +24,17 @@ SceneConfig make_orbit_scene(const OrbitScene& orbit) {
   fiber.blob *= orbit.blob;
   scene.fibers = {fiber};
   return scene;
+}
+
+FiberDynamics make_direct_dynamics(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+  return {fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
+          std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double)};
+}
+
+double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, norm(a[i] - b[i]));
+  return largest;
 }
 
 }  // namespace skein::perf

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <skein/config/scene_config.hpp>
+#include <skein/time/fiber_dynamics.hpp>
+
+#include <vector>
 
 namespace skein::perf {
 
@@ -14,5 +17,11 @@ struct OrbitScene {
 };
 
 SceneConfig make_orbit_scene(const OrbitScene& orbit);
+
+/// The fibers in the scene's flow, velocities by direct sums in double precision.
+FiberDynamics make_direct_dynamics(const SceneConfig& scene, const std::vector<Fiber>& fibers);
+
+/// Between nodes of the same number, length.
+double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
 }  // namespace skein::perf

@@ -4,8 +4,6 @@
 // Arguments: nodes=6 (on a section; the paper has 18), start=5.2, end=5.6.
 
 #include <skein/core/runtime.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/time/fiber_dynamics.hpp>
 #include <skein/time/make_integrator.hpp>
 #include <skein/time/spectral_radius.hpp>
 
@@ -37,8 +35,7 @@ class OrbitPiece {
     scene_.time.step = step;
     scene_.time.tolerance = tolerance;
     scene_.time.max_step = 0.5;
-    FiberDynamics dynamics(fibers_, std::make_unique<SpringForces>(fibers_), make_background_flow(scene_.flows),
-                           std::make_unique<DirectMobility>(scene_.fluid.viscosity, Precision::in_double));
+    FiberDynamics dynamics = make_direct_dynamics(scene_, fibers_);
     const auto integrator = make_integrator(scene_, fibers_, dynamics);
     State state{start, 0, to_device("position", from)};
     while (state.time < end) integrator->advance(state, end);
@@ -46,8 +43,7 @@ class OrbitPiece {
   }
 
   double measure_spectral_radius(const Positions& at) {
-    FiberDynamics dynamics(fibers_, std::make_unique<SpringForces>(fibers_), make_background_flow(scene_.flows),
-                           std::make_unique<DirectMobility>(scene_.fluid.viscosity, Precision::in_double));
+    FiberDynamics dynamics = make_direct_dynamics(scene_, fibers_);
     const Vectors position = to_device("position", at), velocity("velocity", at.size());
     dynamics.compute_velocity(0.0, position, velocity);
     SpectralRadius power_iteration(static_cast<int>(at.size()), 1e-5 * fibers_.front().spacing(), 1);
@@ -71,12 +67,6 @@ constexpr Method methods[] = {{"euler", 1.0, 1.2, true},
                               {"rk4", 4.0, 1.6, true},
                               {"rkc2", 2.0, 0.01, false},
                               {"trbdf2", 2.0, 0.01, false}};
-
-double largest_distance(const Positions& a, const Positions& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, norm(a[i] - b[i]));
-  return largest;
-}
 
 int measure(const int nodes, const double start, const double end) {
   constexpr double solver_tolerance = 1e-11;  // of implicit stages at fixed steps

@@ -3,8 +3,6 @@
 
 #include <skein/core/runtime.hpp>
 #include <skein/core/stopwatch.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/time/fiber_dynamics.hpp>
 #include <skein/time/make_integrator.hpp>
 
 #include <algorithm>
@@ -125,18 +123,10 @@ void print_step(const StepReport& report, const State& state) {
               report.spectral_radius, report.rejected, report.rejection.c_str());
 }
 
-double largest_distance(const ConstVectors& a, const ConstVectors& b) {
-  const auto first = to_host(a), second = to_host(b);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < first.size(); ++i) largest = std::max(largest, norm(first[i] - second[i]));
-  return largest;
-}
-
 int run(const Choice& choice) {
   const SceneConfig scene = make_scene(choice);
   const auto fibers = make_fibers(scene.fibers);
-  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-                         std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double));
+  FiberDynamics dynamics = make_direct_dynamics(scene, fibers);
   const auto integrator = make_integrator(scene, fibers, dynamics);
   State state{0.0, 0, to_device("position", make_surface_nodes(fibers))};
   const Vectors before("before", state.position.extent(0));
@@ -162,7 +152,7 @@ int run(const Choice& choice) {
 
   const double length = fibers[0].length();
   // Of nodes over the last step, shear rate times length: large where steps only alternate.
-  const double speed = largest_distance(state.position, before) /
+  const double speed = largest_distance(to_host(ConstVectors(state.position)), to_host(ConstVectors(before))) /
                        (tally.last_dt * make_background_flow(scene.flows)->typical_rate() * length);
   const auto n_steps = static_cast<double>(std::max<std::int64_t>(1, state.step));
   std::printf(

@@ -52,7 +52,7 @@ ControlledIntegrator::Attempt ExplicitRungeKutta::attempt(const double time, con
   for (std::size_t stage = 1; stage < n_stages; ++stage)
     if (error[stage] != 0.0)
       combine<ExecSpace>(ExecSpace(), scratch_, {1.0, scratch_}, {error[stage] * dt, stage_velocity_[stage - 1]});
-  return {measure_error(scratch_, dt), static_cast<int>(n_stages), 1.0, ""};
+  return {measure_error(scratch_, dt), static_cast<int>(n_stages), ""};
 }
 
 }  // namespace skein

@@ -120,7 +120,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   rhs_.compute_velocity(time + dt, end_, end_velocity_);
   combine<ExecSpace>(ExecSpace(), scratch_, {0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_},
                      {0.4 * dt, end_velocity_});
-  return {measure_error(scratch_, dt), stages, estimate_excess, ""};
+  return {measure_error(scratch_, dt), stages, "", estimate_excess};
 }
 
 void Rkc2::keep_memory() {

@@ -39,8 +39,8 @@ class ControlledIntegrator : public Integrator {
   struct Attempt {
     double error = 0.0;  ///< over tolerance; NaN where the step went wild
     int stages = 1;
-    double excess = 1.0;  ///< by how much `error` is known to be too large, for what is reported
     std::string failure;  ///< why there is no result; empty where there is one
+    double excess = 1.0;  ///< by how much `error` is known to be too large, for what is reported
   };
 
   /// One step from start_ to end_ with the velocity there, both left in the members.
