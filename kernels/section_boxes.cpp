@@ -2,6 +2,8 @@
 
 #include <skein/core/error.hpp>
 
+#include "kernels/section_centroid.hpp"
+
 namespace skein {
 template <class Space>
 void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& vector,
@@ -12,14 +14,9 @@ void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes,
       "skein::compute_section_means", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0)),
       KOKKOS_LAMBDA(const int run) {
         const BoxedFiber& fiber = b.fiber(b.fiber_of_run(run));
-        const int first = (run - fiber.first_run) * sections_per_run;
-        const int end = math::smaller(first + sections_per_run, fiber.n_sections);
-        const int n = fiber.nodes_per_section;
-        for (int section = first; section < end; ++section) {
-          Vec3 sum;
-          for (int a = 0; a < n; ++a) sum = sum + load(vector, fiber.first_node + section * n + a);
-          store(mean, fiber.first_section + section, sum / static_cast<double>(n));
-        }
+        const int end = fiber.end_section_of(run);
+        for (int section = fiber.first_section_of(run); section < end; ++section)
+          store(mean, section, mean_of_rows<Space>(vector, fiber.first_node_of(section), fiber.nodes_per_section));
       });
 }
 
@@ -31,20 +28,16 @@ void locate_sections(const Space& space, const SectionBoxes<Space>& boxes, const
       "skein::enclose_runs", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0)),
       KOKKOS_LAMBDA(const int run) {
         const BoxedFiber& fiber = b.fiber(b.fiber_of_run(run));
-        const int first = (run - fiber.first_run) * sections_per_run;
-        const int end = math::smaller(first + sections_per_run, fiber.n_sections);
         Vec3 low, high;
-        enclose<Space>(b.centroid, b.centroid, fiber.first_section + first, fiber.first_section + end, low, high);
+        enclose<Space>(b.centroid, b.centroid, fiber.first_section_of(run), fiber.end_section_of(run), low, high);
         store(b.run_low, run, low);
         store(b.run_high, run, high);
       });
   Kokkos::parallel_for(
       "skein::enclose_fibers", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber.extent_int(0)),
       KOKKOS_LAMBDA(const int f) {
-        const int first = b.fiber(f).first_run;
         Vec3 low, high;
-        enclose<Space>(b.run_low, b.run_high, first, first + math::ceil_div(b.fiber(f).n_sections, sections_per_run),
-                       low, high);
+        enclose<Space>(b.run_low, b.run_high, b.fiber(f).first_run, b.fiber(f).end_run(), low, high);
         store(b.fiber_low, f, low);
         store(b.fiber_high, f, high);
       });

@@ -17,6 +17,18 @@ struct BoxedFiber {
   int distant_sections = 0;  ///< see Fiber::distant_sections
   double radius = 0.0;       ///< length
   double spacing = 0.0;      ///< of sections, length
+
+  /// Of all fibers' runs and sections, as all below.
+  KOKKOS_INLINE_FUNCTION int end_run() const { return first_run + math::ceil_div(n_sections, sections_per_run); }
+  KOKKOS_INLINE_FUNCTION int first_section_of(const int run) const {
+    return first_section + (run - first_run) * sections_per_run;
+  }
+  KOKKOS_INLINE_FUNCTION int end_section_of(const int run) const {
+    return math::smaller(first_section_of(run) + sections_per_run, first_section + n_sections);
+  }
+  KOKKOS_INLINE_FUNCTION int first_node_of(const int section) const {
+    return first_node + (section - first_section) * nodes_per_section;
+  }
 };
 
 /// Centroids of all sections, with boxes about short runs of them and about fibers, so that a search passes over what
@@ -83,7 +95,7 @@ KOKKOS_INLINE_FUNCTION void for_each_near_run(const SectionBoxes<Space>& boxes, 
     const double reach = margin + fiber.radius;
     const double limit = reach * reach;
     if (squared_distance(low, high, load(boxes.fiber_low, f), load(boxes.fiber_high, f)) > limit) continue;
-    const int end = fiber.first_run + math::ceil_div(fiber.n_sections, sections_per_run);
+    const int end = fiber.end_run();
     for (int run = fiber.first_run; run < end; ++run)
       if (squared_distance(low, high, load(boxes.run_low, run), load(boxes.run_high, run)) <= limit) body(f, run);
   }

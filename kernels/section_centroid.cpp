@@ -8,10 +8,8 @@ void compute_section_centroids(const Space& space, const ConstVectorView<Space>&
   Kokkos::parallel_for(
       "skein::compute_section_centroids", Kokkos::RangePolicy<Space>(space, 0, run.n_sections),
       KOKKOS_LAMBDA(const int section) {
-        const int first_node = run.first_node + section * run.nodes_per_section;
-        Vec3 sum;
-        for (int a = 0; a < run.nodes_per_section; ++a) sum = sum + load(position, first_node + a);
-        store(centroid, first_section + section, sum / static_cast<double>(run.nodes_per_section));
+        store(centroid, first_section + section,
+              mean_of_rows<Space>(position, run.first_node + section * run.nodes_per_section, run.nodes_per_section));
       });
 }
 

@@ -25,7 +25,7 @@ template <class Space>
 KOKKOS_INLINE_FUNCTION void add_to_nodes(const VectorView<Space>& vector, const BoxedFiber& fiber, const int section,
                                          const Vec3 sum) {
   const int n = fiber.nodes_per_section;
-  const int first = fiber.first_node + (section - fiber.first_section) * n;
+  const int first = fiber.first_node_of(section);
   const Vec3 part = sum / static_cast<double>(n);
   for (int node = first; node < first + n; ++node) store(vector, node, load(vector, node) + part);
 }
@@ -116,9 +116,8 @@ struct Gathering {
   KOKKOS_INLINE_FUNCTION void gather_runs(const int f, const int run) const {
     const BoxedFiber& fiber = boxes.fiber(f);
     if ((run - fiber.first_run) % runs_at_once != 0) return;
-    const int n_runs = math::ceil_div(fiber.n_sections, sections_per_run);
-    const int end_run = fiber.first_run + math::smaller(run - fiber.first_run + runs_at_once, n_runs);
-    const int first = fiber.first_section + (run - fiber.first_run) * sections_per_run;
+    const int end_run = math::smaller(run + runs_at_once, fiber.end_run());
+    const int first = fiber.first_section_of(run);
     const double margin = law.range + fiber.radius;
     Vec3 low, high;
     enclose<Space>(boxes.run_low, boxes.run_high, run, end_run, low, high);
@@ -131,22 +130,19 @@ struct Gathering {
         if (squared_distance(load(boxes.run_low, own), load(boxes.run_high, own), other_low, other_high) >
             reach * reach)
           continue;
-        const int begin = fiber.first_section + (own - fiber.first_run) * sections_per_run;
-        const int end = math::smaller(begin + sections_per_run, fiber.first_section + fiber.n_sections);
-        for (int section = begin; section < end; ++section)
+        const int end = fiber.end_section_of(own);
+        for (int section = fiber.first_section_of(own); section < end; ++section)
           sum[section - first] = add_run(f, section, other_f, other_run, sum[section - first]);
       }
     });
-    const int n_sections =
-        math::smaller(runs_at_once * sections_per_run, fiber.first_section + fiber.n_sections - first);
-    for (int i = 0; i < n_sections; ++i) term.finish(fiber, first + i, sum[i]);
+    const int end = fiber.end_section_of(end_run - 1);
+    for (int section = first; section < end; ++section) term.finish(fiber, section, sum[section - first]);
   }
 
   KOKKOS_INLINE_FUNCTION void gather_section(const int f, const int run, const int place) const {
     const BoxedFiber& fiber = boxes.fiber(f);
-    const int number = (run - fiber.first_run) * sections_per_run + place;
-    if (number >= fiber.n_sections) return;
-    const int section = fiber.first_section + number;
+    const int section = fiber.first_section_of(run) + place;
+    if (section >= fiber.end_section_of(run)) return;
     const Vec3 x = load(boxes.centroid, section);
     typename Term::Value sum{};
     for_each_near_run<Space>(boxes, x, x, law.range + fiber.radius, [&](const int other_f, const int other_run) {
@@ -163,9 +159,8 @@ struct Gathering {
     const double limit = (law.range + radii) * (law.range + radii);
     const double scale = law.strength * (fiber.spacing * other_fiber.spacing);
     const Vec3 x = load(boxes.centroid, section);
-    const int first = (run - other_fiber.first_run) * sections_per_run;
-    const int end = other_fiber.first_section + math::smaller(first + sections_per_run, other_fiber.n_sections);
-    for (int other = other_fiber.first_section + first; other < end; ++other) {
+    const int end = other_fiber.end_section_of(run);
+    for (int other = other_fiber.first_section_of(run); other < end; ++other) {
       const int apart = other > section ? other - section : section - other;
       if (f == other_f && apart < fiber.distant_sections) continue;
       const Vec3 d = x - load(boxes.centroid, other);

@@ -43,9 +43,7 @@ inline Fluid draw_fluid(const int most_sources, const bool equal_blobs) {
   return fluid;
 }
 
-inline double norm_of(const std::vector<Vec3>& vectors) {
-  return std::sqrt(reference::inner_product(vectors, vectors));
-}
+using reference::norm_of;
 
 /// A rotation by a random angle about a random axis (Rodrigues), and a shift.
 struct RigidMotion {

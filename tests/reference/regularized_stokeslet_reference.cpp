@@ -54,4 +54,12 @@ double inner_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return static_cast<double>(sum);
 }
 
+double norm_of(const std::vector<Vec3>& v) { return std::sqrt(inner_product(v, v)); }
+
+std::vector<Vec3> shifted(const std::vector<Vec3>& x, const double h, const std::vector<Vec3>& v) {
+  std::vector<Vec3> result = x;
+  for (std::size_t i = 0; i < x.size(); ++i) result[i] = x[i] + h * v[i];
+  return result;
+}
+
 }  // namespace skein::reference

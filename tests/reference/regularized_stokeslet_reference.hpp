@@ -23,4 +23,10 @@ double relative_error(const std::vector<Vec3>& actual, const std::vector<Vec3>& 
 /// sum_i a_i . b_i
 double inner_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
+/// sqrt(sum_i v_i . v_i)
+double norm_of(const std::vector<Vec3>& v);
+
+/// x + h v, row by row.
+std::vector<Vec3> shifted(const std::vector<Vec3>& x, double h, const std::vector<Vec3>& v);
+
 }  // namespace skein::reference

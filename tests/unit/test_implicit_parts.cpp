@@ -12,6 +12,7 @@
 
 #include "kernels/section_band.hpp"
 #include "tests/reference/point_cloud.hpp"
+#include "tests/reference/regularized_stokeslet_reference.hpp"
 
 #include <cmath>
 
@@ -42,23 +43,6 @@ std::vector<Vec3> forces_of(const SpringForces& springs, const std::vector<Vec3>
   return to_host(ConstVectors(force));
 }
 
-std::vector<Vec3> shifted(const std::vector<Vec3>& x, const double h, const std::vector<Vec3>& v) {
-  std::vector<Vec3> result = x;
-  for (std::size_t i = 0; i < x.size(); ++i) result[i] = x[i] + h * v[i];
-  return result;
-}
-
-double size_of(const std::vector<Vec3>& v) {
-  double sum = 0.0;
-  for (const Vec3 x : v) sum += dot(x, x);
-  return std::sqrt(sum);
-}
-double dot_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
-  return sum;
-}
-
 TEST(SpringTangent, IsTheDerivativeOfTheForcesAndSymmetric) {
   const Bent bent;
   const SpringForces springs(bent.fibers);
@@ -71,13 +55,14 @@ TEST(SpringTangent, IsTheDerivativeOfTheForcesAndSymmetric) {
     return to_host(ConstVectors(change));
   };
   const double h = 1e-7;
-  const auto above = forces_of(springs, shifted(bent.position, h, v));
-  const auto below = forces_of(springs, shifted(bent.position, -h, v));
+  const auto above = forces_of(springs, reference::shifted(bent.position, h, v));
+  const auto below = forces_of(springs, reference::shifted(bent.position, -h, v));
   const auto change = change_by(v);
-  auto difference = shifted(above, -1.0, below);
-  difference = shifted(change, -0.5 / h, difference);
-  EXPECT_LT(size_of(difference), 1e-6 * size_of(change));
-  EXPECT_NEAR(dot_of(w, change), dot_of(v, change_by(w)), 1e-11 * size_of(change) * size_of(w));
+  auto difference = reference::shifted(above, -1.0, below);
+  difference = reference::shifted(change, -0.5 / h, difference);
+  EXPECT_LT(reference::norm_of(difference), 1e-6 * reference::norm_of(change));
+  EXPECT_NEAR(reference::inner_product(w, change), reference::inner_product(v, change_by(w)),
+              1e-11 * reference::norm_of(change) * reference::norm_of(w));
 }
 
 TEST(SectionBand, SolvesLikeADenseMatrix) {
@@ -185,13 +170,15 @@ TEST(FiberLinearization, MultipliesByMobilityAndTangent) {
   // M (F(x + h v) - F(x - h v)) / (2 h), with M from another object.
   const SpringForces springs(linearized.bent.fibers);
   const double h = 1e-7;
-  auto force = shifted(forces_of(springs, shifted(position, h, v)), -1.0, forces_of(springs, shifted(position, -h, v)));
+  auto force = reference::shifted(forces_of(springs, reference::shifted(position, h, v)), -1.0,
+                                  forces_of(springs, reference::shifted(position, -h, v)));
   for (Vec3& f : force) f = (0.5 / h) * f;
   const Vectors expected("expected", position.size());
   DirectMobility mobility(1.7, Precision::in_double);
   mobility.add_velocity({x, to_device("f", force), to_device("blob", make_blobs(linearized.bent.fibers))}, x, expected);
   const auto wanted = to_host(ConstVectors(expected));
-  EXPECT_LT(size_of(shifted(to_host(ConstVectors(product)), -1.0, wanted)), 1e-6 * size_of(wanted));
+  EXPECT_LT(reference::norm_of(reference::shifted(to_host(ConstVectors(product)), -1.0, wanted)),
+            1e-6 * reference::norm_of(wanted));
 }
 
 TEST(FiberLinearization, PreconditionsWellAndTurnsWithTheFibers) {
@@ -220,7 +207,8 @@ TEST(FiberLinearization, PreconditionsWellAndTurnsWithTheFibers) {
   const auto expected = turn(to_host(ConstVectors(result)));
   a.set_position(to_device("x", turn(position)));
   a.precondition(to_device("b", turn(list)), result);
-  EXPECT_LT(size_of(shifted(to_host(ConstVectors(result)), -1.0, expected)), 1e-10 * size_of(expected));
+  EXPECT_LT(reference::norm_of(reference::shifted(to_host(ConstVectors(result)), -1.0, expected)),
+            1e-10 * reference::norm_of(expected));
 }
 
 ControlOptions make_options(const double tolerance) {

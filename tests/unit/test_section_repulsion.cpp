@@ -7,6 +7,7 @@
 
 #include "tests/reference/force_balance.hpp"
 #include "tests/reference/point_cloud.hpp"
+#include "tests/reference/regularized_stokeslet_reference.hpp"
 
 namespace skein {
 namespace {
@@ -114,18 +115,6 @@ double energy_of(const SectionRepulsion& repulsion, const std::vector<Vec3>& pos
   return sum;
 }
 
-std::vector<Vec3> shifted(const std::vector<Vec3>& x, const double h, const std::vector<Vec3>& v) {
-  std::vector<Vec3> result = x;
-  for (std::size_t i = 0; i < x.size(); ++i) result[i] = x[i] + h * v[i];
-  return result;
-}
-double dot_of(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += dot(a[i], b[i]);
-  return sum;
-}
-double size_of(const std::vector<Vec3>& v) { return std::sqrt(dot_of(v, v)); }
-
 TEST(SectionRepulsion, IsTheSumOverAllPairs) {
   int n_pairs_of_one = 0, n_pairs_of_two = 0;
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
@@ -135,7 +124,9 @@ TEST(SectionRepulsion, IsTheSumOverAllPairs) {
     n_pairs_of_one += expected.n_pairs_of_one;
     n_pairs_of_two += expected.n_pairs_of_two;
     const auto force = forces_of(repulsion, tangle.position);
-    EXPECT_LE(size_of(shifted(force, -1.0, expected.force)), 1e-12 * size_of(expected.force)) << seed;
+    EXPECT_LE(reference::norm_of(reference::shifted(force, -1.0, expected.force)),
+              1e-12 * reference::norm_of(expected.force))
+        << seed;
     std::vector<double> energy(tangle.fibers.size(), 0.75);  // it is added
     repulsion.add_energies(to_device("position", tangle.position), energy);
     for (std::size_t f = 0; f < energy.size(); ++f)
@@ -163,9 +154,9 @@ TEST(SectionRepulsion, HasForcesThatAreMinusTheGradientOfTheEnergy) {
   const double h = 1e-7;
   for (int i = 0; i < 5; ++i) {
     const auto v = reference::make_random_vectors(static_cast<int>(force.size()), 1.0, random);
-    const double above = energy_of(repulsion, shifted(tangle.position, h, v), tangle.fibers.size());
-    const double below = energy_of(repulsion, shifted(tangle.position, -h, v), tangle.fibers.size());
-    EXPECT_NEAR((below - above) / (2.0 * h), dot_of(force, v), 1e-6 * size_of(force)) << i;
+    const double above = energy_of(repulsion, reference::shifted(tangle.position, h, v), tangle.fibers.size());
+    const double below = energy_of(repulsion, reference::shifted(tangle.position, -h, v), tangle.fibers.size());
+    EXPECT_NEAR((below - above) / (2.0 * h), reference::inner_product(force, v), 1e-6 * reference::norm_of(force)) << i;
   }
 }
 
@@ -181,11 +172,13 @@ TEST(SectionRepulsion, HasChangesThatAreTheDerivativeOfTheForcesAndSymmetric) {
     return to_host(ConstVectors(change));
   };
   const double h = 1e-8;
-  const auto above = forces_of(repulsion, shifted(tangle.position, h, v));
-  const auto below = forces_of(repulsion, shifted(tangle.position, -h, v));
+  const auto above = forces_of(repulsion, reference::shifted(tangle.position, h, v));
+  const auto below = forces_of(repulsion, reference::shifted(tangle.position, -h, v));
   const auto change = change_by(v);
-  EXPECT_LT(size_of(shifted(change, -0.5 / h, shifted(above, -1.0, below))), 1e-5 * size_of(change));
-  EXPECT_NEAR(dot_of(w, change), dot_of(v, change_by(w)), 1e-12 * size_of(change) * size_of(w));
+  EXPECT_LT(reference::norm_of(reference::shifted(change, -0.5 / h, reference::shifted(above, -1.0, below))),
+            1e-5 * reference::norm_of(change));
+  EXPECT_NEAR(reference::inner_product(w, change), reference::inner_product(v, change_by(w)),
+              1e-12 * reference::norm_of(change) * reference::norm_of(w));
 }
 
 TEST(SectionRepulsion, PushesAndTurnsNothingAsAWhole) {
@@ -282,7 +275,7 @@ TEST(SectionRepulsion, IsFiniteWhereFibersCoincide) {
   const Vectors change("change", pair.position.size());
   const Vectors x = to_device("x", pair.position);
   repulsion.add_force_changes(x, x, change);
-  EXPECT_TRUE(std::isfinite(size_of(to_host(ConstVectors(change)))));
+  EXPECT_TRUE(std::isfinite(reference::norm_of(to_host(ConstVectors(change)))));
 }
 
 TEST(SectionRepulsion, IsMadeAsASceneSays) {
