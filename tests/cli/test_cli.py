@@ -243,6 +243,22 @@ class CommandLine(InFreshFolder):
         self.assertIn("standard output", result.stderr)
 
 
+class Threads(InFreshFolder):
+    def test_bound_threads_get_a_processor_each(self):
+        if len(os.sched_getaffinity(0)) < 2 or "backend: OpenMP" not in skein("--version").stdout:
+            self.skipTest("needs two processors and OpenMP")
+        scene = (pathlib.Path(SOURCES) / "configs" / "tumbling.toml").resolve()
+        kept = {name: value for name, value in os.environ.items()
+                if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "OMP_PLACES")}
+        result = subprocess.run(
+            [PROGRAM, "run", scene, "-o", "result", "--set", "time.end=1e-6", "-q", "--threads", "2"], cwd=self.folder,
+            env={**kept, "OMP_PROC_BIND": "true", "OMP_DISPLAY_AFFINITY": "true", "OMP_AFFINITY_FORMAT": "on %A"},
+            capture_output=True, text=True, timeout=60)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        lines = [line for line in result.stderr.splitlines() if line.startswith("on ")]
+        self.assertGreaterEqual(len(set(lines)), 2, result.stderr)
+
+
 class OnATerminal(InFreshFolder):
     def error_on_terminal(self, **environment):
         import pty
