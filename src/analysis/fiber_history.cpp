@@ -28,6 +28,20 @@ Wave judge_waves(const std::vector<ExtremumTrack>& tracks, const double fiber_le
   return static_cast<Wave>(std::max_element(seconds, seconds + 3) - seconds);
 }
 
+// A bend that buckles grows exponentially once the modes that decay are gone, and as long as it is small.
+LineFit fit_first_growth(const std::vector<double>& time, const std::vector<double>& deflection,
+                         const double fiber_length) {
+  const double rounding = std::numeric_limits<double>::epsilon() * fiber_length;
+  const double low = std::max(3.0 * deflection.front(), 1e3 * rounding), high = 0.01 * fiber_length;
+  const auto is_above = [](const double limit) { return [=](const double d) { return !(d < limit); }; };
+  const auto first = std::find_if(deflection.begin(), deflection.end(), is_above(low));
+  const auto top = std::is_sorted_until(first, deflection.end());
+  const auto last = std::find_if(first, top, is_above(high));
+  const auto offset = static_cast<std::size_t>(first - deflection.begin());
+  const auto count = static_cast<std::size_t>(last - first);
+  return fit_growth(std::span(time).subspan(offset, count), std::span(deflection).subspan(offset, count), low, high);
+}
+
 }  // namespace
 
 FiberHistory::FiberHistory(const Fiber& fiber) : fiber_(fiber), reach_(choose_curvature_reach(fiber)) {}
@@ -107,7 +121,7 @@ FiberSummary FiberHistory::summarize() const {
   summary.tracks = make_tracks();
   summary.wave = judge_waves(summary.tracks, fiber_.length());
   summary.snaking = measure_snaking();
-  std::vector<double> out_of_plane;
+  std::vector<double> out_of_plane, deflection;
   for (const Shape& shape : shapes_) {
     const double stretch = shape.length / shapes_.front().length - 1.0;
     summary.stretch_min = std::min(summary.stretch_min, stretch);
@@ -116,9 +130,11 @@ FiberSummary FiberHistory::summarize() const {
     summary.symmetry_defect_max = std::max(summary.symmetry_defect_max, shape.symmetry_defect);
     summary.out_of_plane_max = std::max(summary.out_of_plane_max, shape.out_of_plane);
     out_of_plane.push_back(shape.out_of_plane);
+    deflection.push_back(shape.deflection);
   }
   const double rounding = std::numeric_limits<double>::epsilon() * fiber_.length();
   summary.out_of_plane_growth = fit_growth(time_, out_of_plane, 1e3 * rounding, 0.1 * fiber_.config.radius);
+  summary.deflection_growth = fit_first_growth(time_, deflection, fiber_.length());
   return summary;
 }
 

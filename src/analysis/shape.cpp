@@ -35,6 +35,19 @@ double compute_out_of_plane(const std::span<const Vec3> line) {
   return largest;
 }
 
+double compute_deflection(const std::span<const Vec3> line) {
+  const Vec3 ends = compute_end_to_end(line);
+  const double distance = norm(ends);
+  const Vec3 chord = distance > 0.0 ? ends / distance : Vec3{};
+  double sum = 0.0;
+  for (const Vec3 point : line) {
+    const Vec3 from_end = point - line.front();
+    const Vec3 across = from_end - dot(from_end, chord) * chord;
+    sum += dot(across, across);
+  }
+  return std::sqrt(sum / static_cast<double>(line.size()));
+}
+
 Shape measure_shape(const std::span<const Vec3> line, const int reach) {
   Shape shape;
   const auto arclength = compute_arclength(line);
@@ -47,6 +60,7 @@ Shape measure_shape(const std::span<const Vec3> line, const int reach) {
   shape.total_turning = compute_total_turning(arclength, curvature);
   shape.symmetry_defect = compute_symmetry_defect(line);
   shape.out_of_plane = compute_out_of_plane(line);
+  shape.deflection = compute_deflection(line);
   shape.bends = find_bends(arclength, curvature, least_bend_turning);
   return shape;
 }

@@ -29,6 +29,16 @@ std::string describe_passages(const FiberSummary& summary) {
                      aligned.empty() ? "at no time since the start" : "at t =" + aligned);
 }
 
+// Of a logarithm's variance that a line has to explain: bends that a flow forces grow otherwise.
+constexpr double exponential = 0.999;
+
+std::string describe_growth(const char* what, const LineFit& growth, const double least_determination) {
+  constexpr int least_points = 10;
+  if (growth.n_points < least_points || !(growth.determination >= least_determination)) return {};
+  return fmt::format("  {} {:.4g} (r^2 = {:.4f}, {} frames)\n", what, growth.slope, growth.determination,
+                     growth.n_points);
+}
+
 std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber) {
   const FiberSummary summary = analysis.histories[fiber].summarize();
   std::string text = fmt::format("fiber {}: regime {}\n  regimes:", fiber, name_of(summary.regime));
@@ -50,11 +60,8 @@ std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber)
                         summary.snaking->end, summary.snaking->determination);
   text += fmt::format("  symmetry defect at most {:.3g} of the length, out of the plane at most {:.3g}\n",
                       summary.symmetry_defect_max, summary.out_of_plane_max);
-  constexpr int least_points = 10;
-  if (summary.out_of_plane_growth.n_points >= least_points)
-    text +=
-        fmt::format("  out-of-plane growth rate {:.4g} (r^2 = {:.3f}, {} frames)\n", summary.out_of_plane_growth.slope,
-                    summary.out_of_plane_growth.determination, summary.out_of_plane_growth.n_points);
+  text += describe_growth("out-of-plane growth rate", summary.out_of_plane_growth, 0.0);
+  text += describe_growth("buckling: deflection grows at rate", summary.deflection_growth, exponential);
   if (!analysis.forces.empty()) {
     double energy = 0.0, viscosity = 0.0;
     const auto& forces = analysis.forces[fiber];
@@ -97,9 +104,11 @@ std::string describe_fiber_as_json(const RunAnalysis& analysis, const std::size_
           : "     \"hook_radius\": null, \"snaking_speed\": null,\n";
   text += fmt::format(
       "     \"symmetry_defect\": {}, \"out_of_plane\": {}, \"out_of_plane_growth\": {},\n"
+      "     \"deflection_growth\": {}, \"deflection_growth_r2\": {},\n"
       "     \"energy_defect\": {}}}",
       number_or_null(summary.symmetry_defect_max), number_or_null(summary.out_of_plane_max),
-      number_or_null(summary.out_of_plane_growth.slope),
+      number_or_null(summary.out_of_plane_growth.slope), number_or_null(summary.deflection_growth.slope),
+      number_or_null(summary.deflection_growth.determination),
       number_or_null(measure_energy_defect(analysis, static_cast<int>(fiber))));
   return text;
 }

@@ -72,6 +72,7 @@ std::vector<NamedArray> make_columns(const RunAnalysis& analysis, const std::siz
   columns.add("bends", "", [&](const std::size_t i) { return static_cast<double>(shapes[i].bends.size()); });
   columns.add("symmetry_defect", "", [&](const std::size_t i) { return shapes[i].symmetry_defect; });
   columns.add("out_of_plane", "length", [&](const std::size_t i) { return shapes[i].out_of_plane; });
+  columns.add("deflection", "length", [&](const std::size_t i) { return shapes[i].deflection; });
   columns.add("smallest_gap", "length", [&](const std::size_t i) { return analysis.smallest_gap[i]; });
   add_hook(columns, "first_hook_radius", "first_hook_place", history.hooks(FiberEnd::first));
   add_hook(columns, "last_hook_radius", "last_hook_place", history.hooks(FiberEnd::last));

@@ -152,5 +152,44 @@ TEST(FiberHistory, RecognizesASnakeTurn) {
   EXPECT_NEAR(summary.stretch_max, 0.0, 1e-2);
 }
 
+// Half a sine that first shrinks, then grows exponentially, and stops where it is no longer small.
+TEST(FiberHistory, MeasuresHowFastABendGrows) {
+  FiberConfig config;
+  config.sections = n_sections;
+  config.nodes_per_section = 16;
+  config.radius = radius;
+  const Fiber fiber = make_fibers({config})[0];
+  FiberHistory history(fiber);
+  const double fiber_length = fiber.length(), rate = 1.7, amplitude = 1e-4 * fiber_length;
+  for (int i = 0; i <= 100; ++i) {
+    const double time = 0.05 * i;
+    const double height =
+        std::min(0.3 * fiber_length, amplitude * (std::exp(-4.0 * time) + 0.2 * std::exp(rate * time)));
+    std::vector<Vec3> line;
+    for (int s = 0; s < n_sections; ++s) {
+      const double t = static_cast<double>(s) / (n_sections - 1);
+      // Turned about z by an angle with sine 0.6: deflections do not depend on it.
+      const double along = t * fiber_length, across = height * std::sin(pi * t);
+      line.push_back({0.8 * along - 0.6 * across, 0.6 * along + 0.8 * across, 7.0});
+    }
+    history.add(time, line);
+    const double whole_periods = n_sections - 1;  // the sine's mean square over the sections, ends included
+    EXPECT_NEAR(history.shapes().back().deflection, height * std::sqrt(0.5 * whole_periods / n_sections),
+                1e-9 * fiber_length);
+  }
+  const LineFit growth = history.summarize().deflection_growth;
+  EXPECT_NEAR(growth.slope, rate, 0.01 * rate);
+  EXPECT_GT(growth.determination, 0.9999);
+  EXPECT_GE(growth.n_points, 20);
+}
+
+TEST(FiberHistory, NoGrowthOfAStraightFiber) {
+  FiberConfig config;
+  config.sections = n_sections;
+  FiberHistory history(make_fibers({config})[0]);
+  for (int i = 0; i < 20; ++i) history.add(0.1 * i, make_curve([](double) { return 0.0; }));
+  EXPECT_EQ(history.summarize().deflection_growth.n_points, 0);
+}
+
 }  // namespace
 }  // namespace skein

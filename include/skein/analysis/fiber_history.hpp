@@ -34,6 +34,7 @@ struct FiberSummary {
   double symmetry_defect_max = 0.0;             ///< over length
   double out_of_plane_max = 0.0;                ///< length
   LineFit out_of_plane_growth;                  ///< slope 1 / time, from 1e3 times rounding to a tenth of a radius
+  LineFit deflection_growth;  ///< slope 1 / time, of the first bend that grows: from three times its start to 0.01 L
 };
 
 /// The centreline of one fiber through time, moment by moment.

@@ -19,6 +19,7 @@ struct Shape {
   double total_turning = 0.0;    ///< radians
   double symmetry_defect = 0.0;  ///< departure from odd symmetry, over the line's length
   double out_of_plane = 0.0;     ///< largest distance from the plane z = centroid's, length
+  double deflection = 0.0;       ///< root mean square distance from the line through both ends, length
   std::vector<Bend> bends;
 };
 
@@ -30,5 +31,8 @@ double compute_symmetry_defect(std::span<const Vec3> centreline);
 
 /// Largest |z - z of the centroid|, length.
 double compute_out_of_plane(std::span<const Vec3> centreline);
+
+/// Root mean square distance from the line through both ends, length; from the first end where they coincide.
+double compute_deflection(std::span<const Vec3> centreline);
 
 }  // namespace skein
