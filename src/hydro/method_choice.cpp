@@ -147,8 +147,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
   plan.rank = row->rank;
   plan.far_in_single = options.precision == FmmPrecision::in_single ||
                        (options.precision == FmmPrecision::automatic &&
-                        // After a miss, of which single precision may have been the cause, with a margin.
-                        options.tolerance >= (n_raises == 0 ? single_error : 20.0 * single_error));
+                        // After misses, of which single precision may have been the cause, with a margin.
+                        options.tolerance >= (1.0 + 9.0 * n_raises) * single_error);
   plan.near_in_single = plan.far_in_single;
   plan.singular_cutoff = options.singular_cutoff > 0.0 && n_raises == 0 ? options.singular_cutoff
                          : plan.far_in_single                           ? std::max(row->cutoff, single_cutoff)
