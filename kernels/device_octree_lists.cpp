@@ -135,11 +135,16 @@ KOKKOS_INLINE_FUNCTION void list_near(const ListSource<Space>& from, const int l
     near.add(from.boxes(from.direct(k)).sources);
 }
 
+/// Level by level, because a box asks its parent's list.
 template <class Space>
 void build_touching(const Space& space, DeviceOctree<Space>& tree) {
   auto& lists = tree.touching;
-  require_extent(lists.first, static_cast<std::size_t>(tree.n_boxes()) + 1, "touching_first");
+  const auto n_first = static_cast<std::size_t>(tree.n_boxes()) + 1;
+  require_extent(lists.first, n_first, "touching_first");
+  require_extent(tree.count, n_first, "box_count");
+  Kokkos::deep_copy(space, lists.first, 0);
   lists.n_entries = 0;
+  const auto count = tree.count;
   for (int level = 0; level < tree.n_levels(); ++level) {
     const Run boxes = tree.level(level);
     for (const bool fills : {false, true}) {
@@ -147,15 +152,18 @@ void build_touching(const Space& space, DeviceOctree<Space>& tree) {
       const auto first = lists.first;
       const auto entries = lists.entries;
       Kokkos::parallel_for(
-          "skein::list_touching", Kokkos::RangePolicy<Space>(space, boxes.first, boxes.first + boxes.count),
-          KOKKOS_LAMBDA(const int b) {
+          "skein::list_touching", Kokkos::RangePolicy<Space>(space, 0, boxes.count), KOKKOS_LAMBDA(const int k) {
+            const int b = boxes.first + k;
             EntrySink<int> sink;
-            if (fills) sink.to = entries.data() + first(b);
+            if (fills) sink.to = entries.data() + count(k);
             list_touching(from, b, sink);
-            if (!fills) first(b) = sink.n;
+            if (fills)
+              first(b + 1) = count(k + 1);
+            else
+              count(k) = sink.n;
           });
       if (fills) continue;
-      lists.n_entries = scan_counts(space, lists.first, boxes.first, boxes.first + boxes.count, lists.n_entries);
+      lists.n_entries = scan_counts(space, tree.count, 0, boxes.count, lists.n_entries);
       extend(lists.entries, static_cast<std::size_t>(lists.n_entries));
     }
   }
