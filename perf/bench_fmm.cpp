@@ -280,7 +280,8 @@ void bench_uniform(const bool tiny) {
 /// 640 nodes: what suits a host need not suit a device.
 void bench_device(const bool tiny) {
   std::printf("\n# Device path\npath,leaf_size,%s\n", outcome_header);
-  const int n = tiny ? 1440 : 94536, n_uniform = tiny ? 2000 : 1000000;
+  const int n = tiny ? 1440 : on_host<ExecSpace> ? 23634 : 94536;
+  const int n_uniform = tiny ? 2000 : on_host<ExecSpace> ? 50000 : 1000000;
   struct Shape {
     const char* name;
     std::vector<Vec3> nodes;

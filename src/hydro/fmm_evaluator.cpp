@@ -24,7 +24,8 @@ bool FmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
   else
     nodes_.target = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), target);
   blobs_ = find_blob_range<HostSpace>(HostSpace(), nodes_.blob);
-  return are_finite<HostSpace>(HostSpace(), nodes_.position) && are_finite<HostSpace>(HostSpace(), nodes_.target);
+  return are_finite<HostSpace>(HostSpace(), nodes_.position) &&
+         (same || are_finite<HostSpace>(HostSpace(), nodes_.target));
 }
 
 void FmmEvaluator::sort_nodes(const double scale) {
