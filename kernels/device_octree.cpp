@@ -205,7 +205,8 @@ void DeviceOctree<Space>::build(const Space& space, const ConstVectorView<Space>
   sort(source, sources);
   if (!same_nodes) sort(target, targets);
   split_boxes(space, *this);
-  build_device_lists(space, *this, rules);
+  build_far_lists(space, *this, rules);
+  build_near_lists(space, *this, rules);
 }
 
 template <class Space>

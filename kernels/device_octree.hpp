@@ -54,8 +54,11 @@ struct DeviceOctree {
   DeviceLists<int, Space> coarse_direct;  ///< what would be X pairs of leaves with too few targets for an expansion
 };
 
-/// The second half of the build: lists of a tree whose boxes exist.
+/// The parts of the build after the boxes: touching boxes, V and X ...
 template <class Space>
-void build_device_lists(const Space& space, DeviceOctree<Space>& tree, const OctreeRules& rules);
+void build_far_lists(const Space& space, DeviceOctree<Space>& tree, const OctreeRules& rules);
+/// ... then leaves with targets, U and W.
+template <class Space>
+void build_near_lists(const Space& space, DeviceOctree<Space>& tree, const OctreeRules& rules);
 
 }  // namespace skein
