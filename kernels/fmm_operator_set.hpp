@@ -42,6 +42,9 @@ struct FactoredMatrix {
 inline constexpr double inner_surface = 1.05;  ///< half-widths: sources' equivalent surface, targets' check surface
 inline constexpr double outer_surface = 2.95;  ///< sources' check surface, targets' equivalent surface
 
+/// Boxes of levels above have no far pairs and need no coefficients.
+inline constexpr int first_far_level = 2;
+
 // A transfer vector's operator serves its mirror images too: with the axes of its negative components reflected.
 inline constexpr int n_transfers = 64;
 

@@ -26,9 +26,6 @@ inline constexpr int task_targets = 256;
 /// Cuts the leaves' targets into tasks.
 std::vector<TargetTask> make_target_tasks(const Octree& tree);
 
-/// Boxes above have no far pairs and need no coefficients.
-inline constexpr int first_far_level = 2;
-
 /// Coefficients of all boxes: [n_boxes][n_columns][stride].
 template <class Real>
 struct Coefficients {

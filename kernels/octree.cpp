@@ -2,24 +2,14 @@
 
 #include <skein/core/error.hpp>
 
-#include "kernels/morton.hpp"
-
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace skein {
 namespace {
 
 using Nodes = ConstVectorView<HostSpace>;
 
-constexpr int n_sampled = 4096;
-
-struct Bounds {
-  double low[3], high[3];
-};
-
-void widen(Bounds& bounds, const Nodes& nodes) {
+void widen(NodeBounds& bounds, const Nodes& nodes) {
   const int n = nodes.extent_int(0);
   for (int c = 0; c < 3; ++c) {
     const double* x = n > 0 ? &nodes(0, c) : nullptr;
@@ -33,91 +23,20 @@ void widen(Bounds& bounds, const Nodes& nodes) {
   }
 }
 
-/// Cell of a coordinate; what lies outside the cube, or is not a number, goes to a cell at its rim.
-std::uint64_t cell_of(const double x, const double corner, const double cells_per_length, const double n_cells) {
-  const double cell = (x - corner) * cells_per_length;
-  if (!(cell > 0.0)) return 0;
-  return static_cast<std::uint64_t>(cell < n_cells ? cell : n_cells - 1.0);
-}
-
-struct KeyOf {
-  double corner[3];
-  double cells_per_length, n_cells;
-  std::uint64_t operator()(const Nodes& nodes, const int i) const {
-    return morton_key(cell_of(nodes(i, 0), corner[0], cells_per_length, n_cells),
-                      cell_of(nodes(i, 1), corner[1], cells_per_length, n_cells),
-                      cell_of(nodes(i, 2), corner[2], cells_per_length, n_cells));
-  }
-};
-
-KeyOf make_key_of(const double (&corner)[3], const double side, const int depth) {
-  const double n_cells = static_cast<double>(1 << depth);
-  return {{corner[0], corner[1], corner[2]}, n_cells / side, n_cells};
-}
-
-struct CellChoice {
-  double side;
-  int nodes_per_cell;
-};
-
-/// Side of the cells that would hold the aimed number of nodes each on average, from a sample: the mean number of nodes
-/// per occupied cell as a function of the cell's side, interpolated; where the sample is too thin, extrapolated by the
-/// dimension that the coarser cells show (1 for a line, 3 for a cloud). Along a line leaf_size nodes are aimed at; in a
-/// cloud, where a box has 189 far pairs instead of three, twice as many.
-CellChoice choose_cell(const Nodes& nodes, const double (&corner)[3], const double side, const int leaf_size) {
-  const int n = nodes.extent_int(0);
-  // Enough to see cells of an eighth of what is aimed at: there a thick line has split across its width, too.
-  const std::int64_t n_wanted = std::max<std::int64_t>(n_sampled, std::int64_t{12} * n / leaf_size);
-  const int stride = math::larger(1, static_cast<int>(n / n_wanted));
-  const int n_keys = math::ceil_div(n, stride);
-  const KeyOf key_of = make_key_of(corner, side, max_key_depth);
-  std::vector<std::uint64_t> keys(static_cast<std::size_t>(n_keys));
-  for (int i = 0; i < n_keys; ++i) keys[static_cast<std::size_t>(i)] = key_of(nodes, i * stride);
+SampledCells sample_cells(const Nodes& nodes, const KeyOf& key_of, const int stride) {
+  SampledCells cells;
+  cells.n_keys = math::ceil_div(nodes.extent_int(0), stride);
+  std::vector<std::uint64_t> keys(static_cast<std::size_t>(cells.n_keys));
+  for (int i = 0; i < cells.n_keys; ++i) keys[static_cast<std::size_t>(i)] = key_of(nodes, i * stride);
   std::sort(keys.begin(), keys.end());
-  int n_cells[max_key_depth + 1] = {};
-  n_cells[0] = 1;
-  for (std::size_t i = 1; i < keys.size(); ++i) {
-    const std::uint64_t differ = keys[i] ^ keys[i - 1];
-    if (differ != 0) ++n_cells[max_key_depth - (63 - __builtin_clzll(differ)) / 3];
-  }
-  double slope = 1.0;  // log2 of the growth of the number of cells per level
-  double cells = 1.0;
-  for (int level = 1; level <= max_key_depth; ++level) {
-    const double finer = cells + n_cells[level];
-    const bool is_thin = n_keys < 1.5 * finer;
-    if (!is_thin) slope = std::clamp(std::log2(finer / cells), 0.5, 3.0);
-    const double aimed = leaf_size * std::exp2(0.5 * std::max(0.0, slope - 1.0));
-    const double needed = static_cast<double>(n) / aimed / cells;  // more cells than there are here, a factor
-    if (is_thin || finer / cells >= needed) {
-      const double coarse = side / static_cast<double>(1 << (level - 1));
-      return {needed <= 1.0 ? coarse : coarse * std::exp2(-std::log2(needed) / slope), static_cast<int>(aimed)};
-    }
-    cells = finer;
-  }
-  return {side / static_cast<double>(1 << max_key_depth), leaf_size};
-}
-
-/// Sides change in steps of a quarter octave, so that operators that depend on them can be kept while nodes move.
-double quantized(const double side) { return std::exp2(0.25 * std::floor(4.0 * std::log2(side))); }
-
-bool touch(const Box& a, const Box& b) {
-  const Box& coarse = a.level < b.level ? a : b;
-  const Box& fine = a.level < b.level ? b : a;
-  const int levels = fine.level - coarse.level;
-  for (int c = 0; c < 3; ++c) {
-    const int low = coarse.cell[c] << levels, high = (coarse.cell[c] + 1) << levels;
-    if (fine.cell[c] + 1 < low || fine.cell[c] > high) return false;
-  }
-  return true;
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (keys[i] != keys[i - 1]) ++cells.n_new_cells[separating_level(keys[i], keys[i - 1])];
+  return cells;
 }
 
 }  // namespace
 
-Vec3 Octree::center(const Box& box) const {
-  const double side = side_ / static_cast<double>(1 << box.level);
-  return {corner_[0] + (box.cell[0] + 0.5) * side, corner_[1] + (box.cell[1] + 0.5) * side,
-          corner_[2] + (box.cell[2] + 0.5) * side};
-}
+Vec3 Octree::center(const Box& box) const { return cube_.center(box); }
 
 double Octree::bytes() const {
   const auto of_list = [](const auto& list) {
@@ -132,69 +51,19 @@ double Octree::bytes() const {
 }
 
 void Octree::choose_cube(const Nodes& source, const Nodes& target, const OctreeRules& rules) {
-  Bounds bounds;
-  for (int c = 0; c < 3; ++c) {
-    bounds.low[c] = std::numeric_limits<double>::max();
-    bounds.high[c] = std::numeric_limits<double>::lowest();
-  }
+  NodeBounds bounds;
   widen(bounds, source);
   if (!same_nodes_) widen(bounds, target);
-  double extent = 0.0, reach = 0.0;
-  for (int c = 0; c < 3; ++c) {
-    if (!(bounds.high[c] >= bounds.low[c])) bounds.low[c] = bounds.high[c] = 0.0;
-    extent = std::max(extent, bounds.high[c] - bounds.low[c]);
-    reach = std::max({reach, std::abs(bounds.low[c]), std::abs(bounds.high[c])});
-  }
-  if (!std::isfinite(extent)) extent = 1.0;
-  // A cell smaller than the spacing of the numbers themselves is no cell.
-  extent = std::max({extent, 1e-10 * reach, 1e-300}) * (1.0 + 1e-6);
-  const double smallest = std::max(2.0 * rules.min_half_width, 1e-13 * reach);
-
-  for (int c = 0; c < 3; ++c) corner_[c] = bounds.low[c];
   const Nodes& more = source.extent(0) >= target.extent(0) ? source : target;
-  double cell = extent;
-  nodes_per_cell_ = rules.leaf_size;
-  if (more.extent_int(0) > rules.leaf_size) {
-    const CellChoice choice = choose_cell(more, corner_, extent, rules.leaf_size);
-    if (rules.has_quantized_cells) {
-      cell = std::min(extent, std::max(smallest, quantized(choice.side)));
-    } else {
-      // A whole number of cells along the longest side: none at the rim is nearly empty.
-      const double n_cells = std::min(std::round(extent / choice.side), std::floor(extent / smallest));
-      cell = extent / std::max(1.0, n_cells);
-    }
-    nodes_per_cell_ = choice.nodes_per_cell;
-  }
-
-  side_ = std::max(cell, 1e-300);
-  aimed_depth_ = 0;
-  while (side_ < extent && aimed_depth_ < max_key_depth) {
-    side_ *= 2.0;
-    ++aimed_depth_;
-  }
-  max_depth_ = aimed_depth_;
-  while (max_depth_ < max_key_depth && side_ / static_cast<double>(2 << max_depth_) >= smallest) ++max_depth_;
-
-  // The finest cells that hold the whole thickness of a thin direction get their middle where its middle is: a straight
-  // fiber then lies in one row of cells instead of across the planes of the octree.
-  for (int c = 0; c < 3; ++c) {
-    const double thickness = (bounds.high[c] - bounds.low[c]) * (1.0 + 1e-6);
-    int level = 0;
-    while (level < max_depth_ && side_ / static_cast<double>(2 << level) >= thickness) ++level;
-    const double side = side_ / static_cast<double>(1 << level);
-    const double row = std::floor(0.5 * static_cast<double>(1 << level));
-    if (level > 0)
-      corner_[c] = 0.5 * (bounds.low[c] + bounds.high[c]) - (row + 0.5) * side;
-    else
-      corner_[c] = bounds.low[c] - 1e-7 * extent;
-  }
+  cube_ = choose_octree_cube(bounds, more.extent_int(0), rules,
+                             [&](const KeyOf& key_of, const int stride) { return sample_cells(more, key_of, stride); });
 }
 
 void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& rules) {
   SKEIN_REQUIRE(rules.leaf_size >= 1, "a leaf holds at least one node");
   same_nodes_ = source.data() == target.data() && source.extent(0) == target.extent(0);
   choose_cube(source, target, rules);
-  const KeyOf key_of = make_key_of(corner_, side_, max_depth_);
+  const KeyOf key_of = make_key_of(cube_.corner, cube_.side, cube_.max_depth);
   const auto sort = [&](const Nodes& nodes, Kokkos::View<int*, HostSpace>& order,
                         Kokkos::View<std::uint64_t*, HostSpace>& key) {
     const int n = nodes.extent_int(0);
@@ -213,7 +82,7 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
                            keys(i) = key_of(nodes, i);
                            places(i) = i;
                          });
-    sort_by_key(key, order, n, 3 * max_depth_, spare_key_, spare_order_);
+    sort_by_key(key, order, n, 3 * cube_.max_depth, spare_key_, spare_order_);
   };
   sort(source, source_order_, source_key_);
   if (same_nodes_) {
@@ -226,11 +95,11 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
     }
     sort(target, target_order_, target_key_);
   }
-  split_boxes(nodes_per_cell_);
+  split_boxes();
   build_lists(rules);
 }
 
-void Octree::split_boxes(const int leaf_size) {
+void Octree::split_boxes() {
   boxes_.clear();
   level_first_.assign(1, 0);
   Box root;
@@ -246,10 +115,9 @@ void Octree::split_boxes(const int leaf_size) {
                          [=](const std::uint64_t o, const std::uint64_t k) { return o < (k >> shift & 7); }) -
         key.data());
   };
-  for (int level = 0; level < max_depth_; ++level) {
-    const int shift = 3 * (max_depth_ - level - 1);
-    // Above the aimed depth a box is split unless it holds but a leaf's worth; below, where it holds several.
-    const int split_above = level + 1 <= aimed_depth_ ? (leaf_size * 5) / 4 : 3 * leaf_size;
+  for (int level = 0; level < cube_.max_depth; ++level) {
+    const int shift = 3 * (cube_.max_depth - level - 1);
+    const int split_above = cube_.split_above(level);
     const int last_parent = level_first_.back();
     for (int parent = level_first_[static_cast<std::size_t>(level)]; parent < last_parent; ++parent) {
       const Box box = boxes_[static_cast<std::size_t>(parent)];
@@ -316,10 +184,8 @@ void Octree::build_lists(const OctreeRules& rules) {
         if (touch(box, child)) {
           touching_.entries.push_back(s);
         } else if (child.sources.count > 0 && box.targets.count > 0) {
-          FarPair pair{b, s, {}};
-          for (int c = 0; c < 3; ++c) pair.transfer[c] = static_cast<signed char>(child.cell[c] - box.cell[c]);
-          far_.entries.push_back(pair);
-          transfers_met_ |= std::uint64_t{1} << transfer_index(pair.transfer);
+          far_.entries.push_back(make_far_pair(b, s, box, child));
+          transfers_met_ |= std::uint64_t{1} << transfer_index(far_.entries.back().transfer);
         }
       }
     }

@@ -2,16 +2,11 @@
 
 #include <skein/core/types.hpp>
 
+#include "kernels/node_run.hpp"
 #include "kernels/regularized_stokeslet.hpp"
 #include "kernels/stokeslet_tile.hpp"
 
 namespace skein {
-
-/// A run of nodes [first, first + count).
-struct Run {
-  int first = 0;
-  int count = 0;
-};
 
 /// Sources of a sum on the host; the scale 1 / (8 pi viscosity) goes into the forces.
 struct HostSources {

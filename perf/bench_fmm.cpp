@@ -1,7 +1,7 @@
 // The fast multipole method against this project's direct sum in the same run: error against order, speed against
 // error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
-// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [crossover] [uniform] [setup] [chart] [tiny] (threads:
-// OMP_NUM_THREADS)
+// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [crossover] [uniform] [setup] [chart] [device] [tiny]
+// (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts only when asked.
 
 #include <skein/core/runtime.hpp>
 #include <skein/hydro/direct_mobility.hpp>
@@ -276,6 +276,37 @@ void bench_uniform(const bool tiny) {
     }
 }
 
+/// The path through the execution space's memory, and the host's beside it where this is the host. Leaves from 40 to
+/// 640 nodes: what suits a host need not suit a device.
+void bench_device(const bool tiny) {
+  std::printf("\n# Device path\npath,leaf_size,%s\n", outcome_header);
+  const int n = tiny ? 1440 : on_host<ExecSpace> ? 23634 : 94536;
+  const int n_uniform = tiny ? 2000 : on_host<ExecSpace> ? 50000 : 1000000;
+  struct Shape {
+    const char* name;
+    std::vector<Vec3> nodes;
+    double blob;
+  };
+  for (const Shape& shape :
+       {Shape{"straight", make_straight(n), fiber_blob}, Shape{"spiral", make_spiral(n), fiber_blob},
+        Shape{"uniform", make_uniform(n_uniform), 0.1 / std::cbrt(n_uniform)}}) {
+    Case problem(shape.nodes, shape.blob);
+    for (const double tolerance : {1e-3, 1e-4, 1e-6})
+      for (const int leaf_size : {0, 40, 80, 160, 320, 640})
+        for (const FmmPath path : {FmmPath::device, FmmPath::host}) {
+          const bool is_reference = path == FmmPath::host && leaf_size == 0;
+          if (path == FmmPath::host && !is_reference) continue;
+          if (tiny && (leaf_size > 0 || tolerance < 1e-3)) continue;
+          FmmOptions options;
+          options.path = path;
+          options.tolerance = tolerance;
+          options.leaf_size = leaf_size;
+          std::printf("%s,%d,", is_reference ? "host" : "device", leaf_size);
+          print_outcome(shape.name, problem, tolerance, measure(problem, options, tiny ? 1 : 5, problem.n < 200000));
+        }
+  }
+}
+
 /// From nothing to the first velocity, less a second evaluation: what a run pays once.
 void bench_setup(const bool tiny) {
   std::printf("\n# Set-up, once per run\nshape,p,precision,operators_s\n");
@@ -374,6 +405,7 @@ int main(int argc, char** argv) {
   if (asked("crossover") && !tiny) bench_crossover();
   if (asked("uniform")) bench_uniform(tiny);
   if (asked("setup")) bench_setup(tiny);
+  if (tiny || std::find(parts.begin(), parts.end(), "device") != parts.end()) bench_device(tiny);
   if (asked("chart")) bench_chart(tiny);
   return 0;
 }

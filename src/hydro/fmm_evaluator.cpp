@@ -1,28 +1,11 @@
 #include "fmm_evaluator.hpp"
 
-#include <skein/core/error.hpp>
-#include <skein/core/stopwatch.hpp>
+#include "kernels/combination.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <string>
-#include <utility>
 
 namespace skein {
 namespace {
-
-/// Seconds since the lap before.
-class LapTimer {
- public:
-  double lap() {
-    const auto since = std::exchange(start_, WallClock::now());
-    return std::chrono::duration<double>(start_ - since).count();
-  }
-
- private:
-  WallClock::time_point start_ = WallClock::now();
-};
 
 void resize(HostVectors& array, const int n, const char* label) {
   if (array.extent_int(0) != n)
@@ -31,16 +14,22 @@ void resize(HostVectors& array, const int n, const char* label) {
 
 }  // namespace
 
-BlobRange range_of(const ConstScalarView<HostSpace>& blob) {
-  BlobRange range{blob(0), blob(0)};
-  for (int i = 1; i < blob.extent_int(0); ++i) {
-    range.smallest = std::min(range.smallest, blob(i));
-    range.largest = std::max(range.largest, blob(i));
-  }
-  return range;
+bool FmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
+  nodes_.position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.position);
+  nodes_.force = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.force);
+  nodes_.blob = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.blob);
+  const bool same = target.data() == sources.position.data() && target.extent(0) == sources.position.extent(0);
+  if (same)
+    nodes_.target = nodes_.position;
+  else
+    nodes_.target = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), target);
+  blobs_ = find_blob_range<HostSpace>(HostSpace(), nodes_.blob);
+  return are_finite<HostSpace>(HostSpace(), nodes_.position) &&
+         (same || are_finite<HostSpace>(HostSpace(), nodes_.target));
 }
 
-void FmmEvaluator::sort_nodes(const HostNodes& nodes, const double scale) {
+void FmmEvaluator::sort_nodes(const double scale) {
+  const HostNodes nodes = nodes_;
   const int n_sources = nodes.position.extent_int(0), n_targets = nodes.target.extent_int(0);
   const bool same = nodes.target.data() == nodes.position.data() && n_sources == n_targets;
   resize(sorted_.position, n_sources, "sorted_position");
@@ -66,21 +55,21 @@ void FmmEvaluator::sort_nodes(const HostNodes& nodes, const double scale) {
 
 template <class Near, class Real, class Field>
 void FmmEvaluator::add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
-                              const Coefficients<Real>& coefficients, const HostVectors& velocity) {
+                              const Coefficients<Real>& coefficients) {
   if (!is_symmetric_) {
     add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, {tree_.near_sources(), {}},
-                                           tasks_, velocity);
+                                           tasks_, own_velocity_);
     return;
   }
   resize(near_velocity_, sorted_.target.extent_int(0), "near_velocity");
   compute_near_velocities<Near>(sorted_, make_near_matches(tree_), near_velocity_);
   add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients,
-                                         {tree_.one_way_sources(), near_velocity_}, tasks_, velocity);
+                                         {tree_.one_way_sources(), near_velocity_}, tasks_, own_velocity_);
 }
 
 template <class Real, class Field>
 void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
-                        Coefficients<Real>& coefficients, const HostVectors& velocity) {
+                        Coefficients<Real>& coefficients) {
   LapTimer watch;
   coefficients.stride = 0;
   for (const auto* level : levels)
@@ -99,27 +88,28 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
   statistics.far_seconds = watch.lap();
   if constexpr (std::is_same_v<Real, float>) {
     if (plan.near_in_single)
-      add_leaves<float, Real>(field, levels, coefficients, velocity);
+      add_leaves<float, Real>(field, levels, coefficients);
     else
-      add_leaves<double, Real>(field, levels, coefficients, velocity);
+      add_leaves<double, Real>(field, levels, coefficients);
   } else {
-    add_leaves<double, Real>(field, levels, coefficients, velocity);
+    add_leaves<double, Real>(field, levels, coefficients);
   }
   statistics.leaf_seconds = watch.lap();
 }
 
 template <class Real>
-void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, const double blob, OperatorStore<Real>& store,
-                          Coefficients<Real>& coefficients, const HostVectors& velocity) {
+void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, OperatorStore<Real>& store,
+                          Coefficients<Real>& coefficients) {
   LapTimer watch;
+  const double blob = blobs_.largest;
   const auto levels = store.require(options.far_field, plan, blob, tree_);
   statistics.operators_seconds = watch.lap();
   if (options.far_field == FarField::harmonic)
-    pass<Real>(plan, HarmonicField{}, levels, coefficients, velocity);
+    pass<Real>(plan, HarmonicField{}, levels, coefficients);
   else if (options.far_field == FarField::stokeslet)
-    pass<Real>(plan, StokesletField{options.stokes_part_only}, levels, coefficients, velocity);
+    pass<Real>(plan, StokesletField{options.stokes_part_only}, levels, coefficients);
   else
-    pass<Real>(plan, RegularizedField{blob * blob}, levels, coefficients, velocity);
+    pass<Real>(plan, RegularizedField{blob * blob}, levels, coefficients);
   statistics.memory_bytes = store.bytes() + 2.0 * sizeof(Real) * static_cast<double>(coefficients.source.size()) +
                             node_bytes() + tree_.bytes();
 }
@@ -150,36 +140,36 @@ double FmmEvaluator::node_bytes() const {
                                    (same ? 0 : sorted_.target.size()));
 }
 
-bool FmmEvaluator::add(const FmmOptions& options, FmmPlan plan, const double viscosity, const HostNodes& nodes,
-                       const HostVectors& velocity) {
+bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
   LapTimer watch;
-  OctreeRules rules;
-  rules.leaf_size = plan.leaf_size;
-  rules.min_half_width = plan.min_half_width;
-  rules.has_quantized_cells = options.far_field == FarField::regularized;
-  const int edge = plan.order - 1;
-  rules.min_sources_for_expansion = 6 * edge * edge + 2;
-  tree_.build(nodes.position, nodes.target, rules);
+  FmmPlan plan = chosen;
+  tree_.build(nodes_.position, nodes_.target, make_octree_rules(options, plan));
   tasks_ = make_target_tasks(tree_);
-  const BlobRange blobs = range_of(nodes.blob);
-  if (options.far_field == FarField::regularized && blobs.smallest != blobs.largest)
-    throw Error(
-        ExitCode::scene_error,
-        fmt::format("far_field = \"regularized\" needs one blob for all nodes, not {:g} .. {:g}: use \"harmonic\"",
-                    blobs.smallest, blobs.largest));
-  if (options.precision == FmmPrecision::automatic)
-    plan.near_in_single &= single_precision_error(blobs.smallest, tree_.largest_leaf()) < options.tolerance;
+  settle_plan(options, blobs_, tree_.largest_leaf(), plan);
   count_work(plan);
   statistics.tree_seconds = watch.lap();
-  is_symmetric_ = tree_.has_same_nodes() && blobs.smallest == blobs.largest;
+  is_symmetric_ = tree_.has_same_nodes() && blobs_.smallest == blobs_.largest;
   if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_) > 1.0) return false;
-  sort_nodes(nodes, regularized_stokeslet::scale(viscosity));
+  if (own_velocity_.extent(0) == nodes_.target.extent(0))
+    Kokkos::deep_copy(own_velocity_, 0.0);
+  else
+    own_velocity_ = HostVectors("fmm_velocity", nodes_.target.extent(0));
+  sort_nodes(regularized_stokeslet::scale(viscosity));
   statistics.sort_seconds = watch.lap();
   if (plan.far_in_single)
-    add_in<float>(options, plan, blobs.largest, single_operators_, single_coefficients_, velocity);
+    add_in<float>(options, plan, single_operators_, single_coefficients_);
   else
-    add_in<double>(options, plan, blobs.largest, operators_, coefficients_, velocity);
+    add_in<double>(options, plan, operators_, coefficients_);
   return true;
+}
+
+void FmmEvaluator::add_to(const Vectors& velocity) const {
+  const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), own_velocity_);
+  combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, own});
+}
+
+std::vector<Vec3> FmmEvaluator::sample(const EvenSample& sample) const {
+  return read_sample<HostSpace>(HostSpace(), own_velocity_, sample);
 }
 
 }  // namespace skein

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <skein/hydro/fmm_mobility.hpp>
-#include <skein/hydro/method_choice.hpp>
-
+#include "fmm_backend.hpp"
 #include "kernels/fmm_near_matches.hpp"
 #include "kernels/fmm_translations.hpp"
 #include "operator_store.hpp"
@@ -17,34 +15,32 @@ struct HostNodes {
   ConstScalarView<HostSpace> blob;
 };
 
-struct BlobRange {
-  double smallest, largest;
-};
-BlobRange range_of(const ConstScalarView<HostSpace>& blob);
-
-/// Tree, operators and passes of one evaluation after another.
-class FmmEvaluator {
+/// The evaluation on the host, with its vector units; device arrays are copied.
+class FmmEvaluator final : public FmmBackend {
  public:
-  /// velocity += the sum after a plan; false, and nothing done, where a direct sum is cheaper and may be used.
-  bool add(const FmmOptions& options, FmmPlan plan, double viscosity, const HostNodes& nodes,
-           const HostVectors& velocity);
-
-  FmmStatistics statistics;
+  bool take(const Sources& sources, const ConstVectors& target) override;
+  double largest_blob() const override { return blobs_.largest; }
+  bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) override;
+  void add_to(const Vectors& velocity) const override;
+  std::vector<Vec3> sample(const EvenSample& sample) const override;
 
  private:
-  void sort_nodes(const HostNodes& nodes, double scale);
+  void sort_nodes(double scale);
   template <class Real>
-  void add_in(const FmmOptions& options, const FmmPlan& plan, double blob, OperatorStore<Real>& store,
-              Coefficients<Real>& coefficients, const HostVectors& velocity);
+  void add_in(const FmmOptions& options, const FmmPlan& plan, OperatorStore<Real>& store,
+              Coefficients<Real>& coefficients);
   template <class Real, class Field>
   void pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
-            Coefficients<Real>& coefficients, const HostVectors& velocity);
+            Coefficients<Real>& coefficients);
   template <class Near, class Real, class Field>
   void add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
-                  const Coefficients<Real>& coefficients, const HostVectors& velocity);
+                  const Coefficients<Real>& coefficients);
   void count_work(const FmmPlan& plan);
   double node_bytes() const;
 
+  HostNodes nodes_;
+  BlobRange blobs_{0.0, 0.0};
+  HostVectors own_velocity_;
   Octree tree_;
   SortedNodes sorted_;
   bool is_symmetric_ = false;  ///< sources are targets, with one blob

@@ -3,7 +3,7 @@
 #include <skein/hydro/method_choice.hpp>
 
 #include "fmm_operators.hpp"
-#include "kernels/fmm_translations.hpp"
+#include "kernels/fmm_operator_set.hpp"
 
 #include <map>
 #include <vector>
@@ -15,8 +15,10 @@ template <class Real>
 class OperatorStore {
  public:
   /// The operators of every level of the tree, complete for its lists.
+  /// @param tree  an Octree or a DeviceOctree
+  template <class Tree>
   std::vector<const OperatorSet<Real>*> require(const FarField far_field, const FmmPlan& plan, const double blob,
-                                                const Octree& tree) {
+                                                const Tree& tree) {
     if (order_ != plan.order || cutoff_ != plan.singular_cutoff) kept_.clear();
     order_ = plan.order;
     cutoff_ = plan.singular_cutoff;

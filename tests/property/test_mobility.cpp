@@ -208,8 +208,10 @@ std::unique_ptr<Mobility> make_direct_in_single(const double viscosity) {
 }
 
 /// Leaves small enough that these few nodes have a far field.
-std::unique_ptr<Mobility> make_fmm(const double viscosity, const double tolerance, const FarField far_field) {
+std::unique_ptr<Mobility> make_fmm(const double viscosity, const double tolerance, const FarField far_field,
+                                   const FmmPath path = FmmPath::automatic) {
   FmmOptions options;
+  options.path = path;
   options.tolerance = tolerance;
   options.far_field = far_field;
   options.leaf_size = 6;
@@ -221,6 +223,9 @@ std::unique_ptr<Mobility> make_fmm_in_single(const double viscosity) {
 std::unique_ptr<Mobility> make_fmm_in_double(const double viscosity) {
   return make_fmm(viscosity, 3e-7, FarField::harmonic);
 }
+std::unique_ptr<Mobility> make_fmm_on_device(const double viscosity) {
+  return make_fmm(viscosity, 1e-5, FarField::harmonic, FmmPath::device);
+}
 std::unique_ptr<Mobility> make_fmm_of_stokeslets(const double viscosity) {
   return make_fmm(viscosity, 1e-3, FarField::stokeslet);
 }
@@ -230,6 +235,7 @@ INSTANTIATE_TEST_SUITE_P(, MobilityProperties,
                                            Row{"direct_in_single", make_direct_in_single, 5e-6},
                                            Row{"fmm_in_single", make_fmm_in_single, 3e-5},
                                            Row{"fmm_in_double", make_fmm_in_double, 3e-6},
+                                           Row{"fmm_on_device", make_fmm_on_device, 3e-5},
                                            Row{"fmm_of_stokeslets", make_fmm_of_stokeslets, 1e-2}),
                          ::testing::PrintToStringParamName());
 

@@ -20,10 +20,9 @@ std::uint64_t hash_of(const std::vector<Vec3>& velocity) {
   return hash;
 }
 
-void print_hashes() {
-  std::printf("threads %d\n", HostSpace().concurrency());
+void print_hashes(const FmmPath path, const int n_many) {
   for (const reference::Cloud cloud : reference::all_clouds)
-    for (const int n : {500, 20000})
+    for (const int n : {500, n_many})
       for (const FmmPrecision precision : {FmmPrecision::in_double, FmmPrecision::in_single})
         for (const FarField far_field : {FarField::harmonic, FarField::stokeslet}) {
           if (far_field == FarField::stokeslet && n > 500) continue;
@@ -34,6 +33,7 @@ void print_hashes() {
             const Sources sources{position, to_device("force", reference::make_random_vectors(n, 1.3, random)),
                                   to_device("blob", reference::make_random_lengths(n, 1e-5, largest_blob, random))};
             FmmOptions options;
+            options.path = path;
             options.precision = precision;
             options.far_field = far_field;
             options.tolerance = 1e-3;
@@ -55,5 +55,7 @@ void print_hashes() {
 
 int main() {
   const skein::Runtime runtime;
-  skein::print_hashes();
+  std::printf("threads %d\n", skein::HostSpace().concurrency());
+  skein::print_hashes(skein::FmmPath::host, 20000);
+  skein::print_hashes(skein::FmmPath::device, 4000);
 }

@@ -11,8 +11,7 @@
 
 namespace skein {
 
-class FmmEvaluator;
-struct HostNodes;
+class FmmBackend;
 
 /// What the last evaluation met: for the cost card, the benchmarks and the tests.
 struct FmmStatistics {
@@ -31,9 +30,9 @@ struct FmmStatistics {
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
-/// the approximations). The tree is rebuilt in every call, operators are kept. Runs on the host; device arrays are
-/// copied. A node whose position is not finite makes all velocities not a number, as in a direct sum. Source: Ying,
-/// Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
+/// the approximations). The tree is rebuilt in every call, operators are kept. FmmPath says where it runs. A node whose
+/// position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J. Comput.
+/// Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
@@ -58,16 +57,15 @@ class FmmMobility final : public Mobility {
  private:
   /// True where direct sums are the rule for so many pairs, before a tree is built.
   bool sums_directly(double n_pairs) const;
-  /// own_velocity_ = the sum; false where a direct sum is cheaper.
-  bool evaluate(const HostNodes& nodes);
-  /// False where own_velocity_, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
-  bool passes_check(const Sources& sources, const HostNodes& nodes, const Vectors& velocity);
+  /// Computes the sum of the arrays that were taken; false where a direct sum is cheaper.
+  bool evaluate();
+  /// False where the sum, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
+  bool passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
 
   double viscosity_;
   FmmOptions options_;
   DirectMobility direct_;
-  std::unique_ptr<FmmEvaluator> evaluator_;
-  HostVectors own_velocity_;
+  std::unique_ptr<FmmBackend> backend_;
   double pairs_ = 0.0;
   int raised_order_ = 0;            ///< that a check found necessary; 0: as planned
   std::int64_t n_evaluations_ = 0;  ///< decides which are checked

@@ -19,6 +19,13 @@ enum class OnMiss {
   stop,         ///< ... ends the run
 };
 
+/// Where the fast multipole method's arrays and loops are.
+enum class FmmPath {
+  automatic,  ///< on the host where kernels run there, else on the device
+  host,       ///< the processor's vector units; arrays of a device are copied
+  device,     ///< plain kernels in the execution space; the host has them for tests, and is slow at them
+};
+
 /// What a user may ask of the fast multipole method; 0 leaves a choice to the tables.
 struct FmmOptions {
   double tolerance = 1e-4;  ///< relative error of all velocities together (2-norm)
@@ -33,6 +40,7 @@ struct FmmOptions {
   int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks
   int n_checked_targets = 64;
   OnMiss on_miss = OnMiss::raise_order;
+  FmmPath path = FmmPath::automatic;
 };
 
 /// What an evaluation uses.

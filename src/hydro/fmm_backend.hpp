@@ -1,0 +1,57 @@
+#pragma once
+
+#include <skein/core/stopwatch.hpp>
+#include <skein/hydro/fmm_mobility.hpp>
+#include <skein/hydro/method_choice.hpp>
+
+#include "kernels/even_sample.hpp"
+#include "kernels/node_checks.hpp"
+#include "kernels/octree_cube.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace skein {
+
+/// One way of an evaluation through the machine. FmmMobility asks it for a sum, and adds, checks and reports.
+class FmmBackend {
+ public:
+  virtual ~FmmBackend() = default;
+
+  /// Takes the arrays of the next sum; false where a position is not finite.
+  virtual bool take(const Sources& sources, const ConstVectors& target) = 0;
+  virtual double largest_blob() const = 0;
+  /// The sum after a plan; false where a direct sum is cheaper and may be used.
+  virtual bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) = 0;
+  /// velocity += the sum
+  virtual void add_to(const Vectors& velocity) const = 0;
+  /// The sum at some targets.
+  virtual std::vector<Vec3> sample(const EvenSample& sample) const = 0;
+
+  FmmStatistics statistics;
+};
+
+/// @param path  automatic: on the host where kernels run there, else on the device
+std::unique_ptr<FmmBackend> make_fmm_backend(FmmPath path);
+
+/// Seconds since the lap before.
+class LapTimer {
+ public:
+  double lap() {
+    const auto since = std::exchange(start_, WallClock::now());
+    return std::chrono::duration<double>(start_ - since).count();
+  }
+
+ private:
+  WallClock::time_point start_ = WallClock::now();
+};
+
+OctreeRules make_octree_rules(const FmmOptions& options, const FmmPlan& plan);
+
+/// What the plan leaves to the tree.
+/// @throws Error(scene_error) where the far field needs one blob and there are several
+void settle_plan(const FmmOptions& options, BlobRange blobs, double largest_leaf, FmmPlan& plan);
+
+}  // namespace skein
