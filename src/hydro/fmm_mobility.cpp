@@ -49,6 +49,11 @@ Precision precision_of_direct_sums(const FmmOptions& options) {
   return options.precision == FmmPrecision::in_single ? Precision::in_single : Precision::in_double;
 }
 
+FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
+  const bool same = target.data() == sources.position.data() && target.extent(0) == sources.position.extent(0);
+  return same ? FmmTargets::at_sources : FmmTargets::apart;
+}
+
 }  // namespace
 
 FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
@@ -76,10 +81,11 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
   pairs_ += n_pairs;
   record_.order = 0;
   backend_->statistics.used_direct_sum = true;
-  if (sums_directly(n_pairs)) return direct_.add_velocity(sources, target, velocity);
+  const FmmTargets targets = place_of(sources, target);
+  if (sums_directly(n_pairs, targets)) return direct_.add_velocity(sources, target, velocity);
 
   if (!backend_->take(sources, target)) return Kokkos::deep_copy(velocity, std::numeric_limits<double>::quiet_NaN());
-  while (evaluate())
+  while (evaluate(targets))
     if (!is_checked || passes_check(sources, target, velocity)) {
       ++record_.n_approximate;
       record_.order = backend_->statistics.plan.order;
@@ -88,12 +94,12 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
   direct_.add_velocity(sources, target, velocity);
 }
 
-bool FmmMobility::sums_directly(const double n_pairs) const {
-  return options_.direct_when_cheaper && (n_pairs < min_fmm_pairs || needs_direct_sum(options_));
+bool FmmMobility::sums_directly(const double n_pairs, const FmmTargets targets) const {
+  return options_.direct_when_cheaper && (n_pairs < min_fmm_pairs || needs_direct_sum(options_, targets));
 }
 
-bool FmmMobility::evaluate() {
-  const FmmPlan plan = choose_fmm_plan(options_, backend_->largest_blob(), raised_order_);
+bool FmmMobility::evaluate(const FmmTargets targets) {
+  const FmmPlan plan = choose_fmm_plan(options_, backend_->largest_blob(), raised_order_, targets);
   const bool is_done = backend_->compute(options_, plan, viscosity_);
   backend_->statistics.used_direct_sum = !is_done;
   return is_done;
@@ -123,7 +129,7 @@ bool FmmMobility::passes_check(const Sources& sources, const ConstVectors& targe
 double FmmMobility::measure_error(const Sources& sources, const ConstVectors& target, const int n_sample) {
   if (sources.position.extent(0) == 0 || target.extent(0) == 0) return 0.0;
   backend_->take(sources, target);
-  if (!evaluate()) return 0.0;
+  if (!evaluate(place_of(sources, target))) return 0.0;
   return compare(viscosity_, sources, target, *backend_, {target.extent_int(0), n_sample}).relative();
 }
 

@@ -15,7 +15,8 @@ namespace skein {
 namespace {
 
 /// One line of the tables. The errors are the largest of random, aligned and balanced forces on clouds, clusters,
-/// lines, coils, tubes, shells and sheets, with a margin of two or more; ranks are those of the cut-off operators.
+/// lines, coils, tubes, shells and sheets, at the sources, with a margin of two or more; ranks are those of the cut-off
+/// operators.
 struct Row {
   int order;
   double cutoff;
@@ -44,6 +45,12 @@ constexpr Row stokeslet_rows[] = {
     {13, 1e-10, 1e-7, 1100, 300}, {14, 1e-10, 1e-7, 1200, 300}, {15, 1e-10, 1e-7, 1300, 300},
     {16, 1e-10, 1e-7, 1400, 300},
 };
+
+/// Errors at targets apart from the sources over those of the tables: at most 7.5 for 260 sources of random forces in
+/// cubes, clusters, on lines and tubes, and random targets beside them (orders 5 to 8, 100 to 150 of each).
+constexpr double apart_excess = 8.0;
+
+double excess_of(const FmmTargets targets) { return targets == FmmTargets::apart ? apart_excess : 1.0; }
 
 /// Error between the nearest well-separated boxes over (eps / half-width)^4.
 double floor_factor(const FmmOptions& options) {
@@ -97,7 +104,9 @@ double single_precision_error(const double min_blob, const double half_width) {
   return 2e-7 + 2e-8 * half_width / min_blob;
 }
 
-bool needs_direct_sum(const FmmOptions& options) { return options.tolerance < least_error(options); }
+bool needs_direct_sum(const FmmOptions& options, const FmmTargets targets) {
+  return options.tolerance < excess_of(targets) * least_error(options);
+}
 
 std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
   std::vector<OptionProblem> problems;
@@ -136,8 +145,14 @@ void check_fmm_options(const FmmOptions& options) {
   if (!problems.empty()) throw Error(ExitCode::scene_error, problems.front().message);
 }
 
-FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const int raised_order) {
-  check_fmm_options(options);
+FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const int raised_order,
+                        const FmmTargets targets) {
+  check_fmm_options(wanted);
+  // What is set by hand stays, and the best that there is has to do where the tolerance leaves no room.
+  FmmOptions options = wanted;
+  if (wanted.order == 0 && wanted.min_half_width == 0.0)
+    options.tolerance =
+        std::min(wanted.tolerance, std::max(wanted.tolerance / excess_of(targets), least_error(wanted)));
   const Row* const planned = find_row(options, options.order);
   const Row* const row = find_row(options, math::larger(options.order, raised_order));
   const int n_raises = row->order - planned->order;
@@ -155,7 +170,7 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                                                                         : row->cutoff;
   plan.transfer_tolerance = transfer_share * row->error;
   plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
-  plan.expected_error = plan.far_in_single ? std::max(row->error, single_error) : row->error;
+  plan.expected_error = excess_of(targets) * (plan.far_in_single ? std::max(row->error, single_error) : row->error);
 
   const double needed = smallest_half_width(options, max_blob);
   plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
@@ -168,7 +183,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& options, const double max_blob, const 
                     floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
   // Blobs may have been the cause as well as the order: a quarter of their error with each raise.
   plan.min_half_width *= std::exp2(0.5 * n_raises);
-  if (plan.min_half_width > 0.0) plan.blob_error = floor_factor(options) * std::pow(max_blob / plan.min_half_width, 4);
+  if (plan.min_half_width > 0.0)
+    plan.blob_error = excess_of(targets) * floor_factor(options) * std::pow(max_blob / plan.min_half_width, 4);
   return plan;
 }
 

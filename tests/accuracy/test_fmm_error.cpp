@@ -265,6 +265,35 @@ void expect_no_silent_miss(const int n_cases, const std::uint64_t seed) {
 TEST(FmmError, NeverMissesSilently) { expect_no_silent_miss(20, 7); }
 TEST(FmmErrorSlow, NeverMissesSilently) { expect_no_silent_miss(200, 2026); }
 
+// No near field hides the error of the far one.
+TEST(FmmError, NeverMissesApartFromTheSources) {
+  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+    FmmOptions options;
+    options.tolerance = tolerance;
+    options.leaf_size = 6;
+    FmmMobility fmm(viscosity, options);
+    Random random(301);
+    int n_with_far_field = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double size = random.log_uniform(0.01, 100.0), cell = size / std::cbrt(260.0);
+      PointForces from;
+      from.position =
+          reference::make_cloud(reference::all_clouds[k % 4], 260, random.in_cube(3.0 * size), size, random);
+      from.force = reference::make_random_vectors(260, 2.0, random);
+      from.blob = reference::make_random_lengths(260, 0.003 * cell, 0.3 * cell, random);
+      const Vec3 beside = from.position.front() + random.in_cube(size);
+      const Vectors target = to_device("target", reference::make_cloud(Cloud::cube, 150, beside, 2.0 * size, random));
+      const Sources sources = on_device(from);
+      const Vectors got("got", 150), exact("exact", 150);
+      fmm.add_velocity(sources, target, got);
+      DirectMobility(viscosity, Precision::in_double).add_velocity(sources, target, exact);
+      EXPECT_LE(error_of(to_host(got), to_host(exact)), tolerance) << "case " << k;
+      n_with_far_field += fmm.statistics().work.far_pairs > 0.0;
+    }
+    EXPECT_GT(n_with_far_field, 30) << tolerance;
+  }
+}
+
 TEST(FmmOptionsCheck, RefusesWhatCannotBeDelivered) {
   const auto refused = [](const auto& change) {
     FmmOptions options;

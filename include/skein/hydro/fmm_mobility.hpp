@@ -56,9 +56,9 @@ class FmmMobility final : public Mobility {
 
  private:
   /// True where direct sums are the rule for so many pairs, before a tree is built.
-  bool sums_directly(double n_pairs) const;
+  bool sums_directly(double n_pairs, FmmTargets targets) const;
   /// Computes the sum of the arrays that were taken; false where a direct sum is cheaper.
-  bool evaluate();
+  bool evaluate(FmmTargets targets);
   /// False where the sum, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
   bool passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
 

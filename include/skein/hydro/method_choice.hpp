@@ -43,6 +43,12 @@ struct FmmOptions {
   FmmPath path = FmmPath::automatic;
 };
 
+/// Where velocities are asked for.
+enum class FmmTargets {
+  at_sources,  ///< near sources make up most of each velocity
+  apart,       ///< velocities may be all far field, with all of its error
+};
+
 /// What an evaluation uses.
 struct FmmPlan {
   int order = 6;
@@ -74,7 +80,8 @@ void check_fmm_options(const FmmOptions& options);
 /// @param max_blob      the largest regularization length among the sources, length
 /// @param raised_order  an order that a check found necessary; 0: none
 /// @throws Error(scene_error) where none meets it, or where what is set by hand does not.
-FmmPlan choose_fmm_plan(const FmmOptions& options, double max_blob, int raised_order);
+FmmPlan choose_fmm_plan(const FmmOptions& options, double max_blob, int raised_order,
+                        FmmTargets targets = FmmTargets::at_sources);
 
 /// Far field, order, leaves, precision, expected error: one line.
 std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan);
@@ -83,7 +90,7 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan);
 double smallest_half_width(const FmmOptions& options, double max_blob);
 
 /// True where no plan reaches the tolerance and only direct sums do.
-bool needs_direct_sum(const FmmOptions& options);
+bool needs_direct_sum(const FmmOptions& options, FmmTargets targets = FmmTargets::at_sources);
 
 /// Error between the nearest well-separated boxes that blobs cause in the harmonic far field: 0.011 (eps /
 /// half-width)^4.
