@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "app/paper_run.hpp"
 #include "app/paper_scenes.hpp"
 
 namespace skein {
@@ -17,82 +18,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double degrees = 180.0 / std::numbers::pi;
-
-/// Rows of one figure.
-class Rows {
- public:
-  explicit Rows(std::string figure) : figure_(std::move(figure)) {}
-
-  void add(const std::string& quantity, const std::string& source, AcceptanceRow row) {
-    row.figure = figure_;
-    row.quantity = quantity;
-    row.source = source;
-    rows_.push_back(std::move(row));
-  }
-  std::vector<AcceptanceRow> take() { return std::move(rows_); }
-
- private:
-  std::string figure_;
-  std::vector<AcceptanceRow> rows_;
-};
-
-/// The run of one fiber, asked about moments it may not have reached.
-class PaperRun {
- public:
-  PaperRun(const PaperRuns& runs, const std::string& name) {
-    const auto found = runs.find(name);
-    if (found == runs.end()) return;
-    analysis_ = &found->second;
-    history_ = &analysis_->histories[0];
-    summary_ = history_->summarize();
-  }
-
-  bool has(const double time) const { return analysis_ != nullptr && analysis_->time.back() >= time - 1e-9; }
-  const FiberSummary& summary() const { return summary_; }
-
-  std::size_t frame(const double time) const {
-    const auto& times = analysis_->time;
-    const auto after = std::lower_bound(times.begin(), times.end(), time - 1e-9);
-    return static_cast<std::size_t>(std::min(after, times.end() - 1) - times.begin());
-  }
-  template <class Measure>
-  double at(const double time, const Measure& measure) const {
-    return has(time) ? static_cast<double>(measure(history_->shapes()[frame(time)])) : nan;
-  }
-  /// Degrees clockwise from +x, without jumps.
-  double angle(const double time) const { return has(time) ? degrees * history_->angles()[frame(time)] : nan; }
-  std::string regime(const double time) const { return has(time) ? name_of(history_->regimes()[frame(time)]) : ""; }
-  double half_period() const {
-    return analysis_ == nullptr || summary_.half_periods.empty() ? nan : summary_.half_periods[0];
-  }
-  std::string wave(const double time) const { return has(time) ? name_of(summary_.wave) : ""; }
-  double count_hooks(const double time) const {
-    if (!has(time)) return nan;
-    const std::size_t i = frame(time);
-    return static_cast<double>(history_->hooks(FiberEnd::first)[i].has_value() +
-                               history_->hooks(FiberEnd::last)[i].has_value());
-  }
-  /// Of the two hooks' peaks from their ends, over the length.
-  double hook_place(const double time) const {
-    if (count_hooks(time) != 2.0) return nan;
-    const std::size_t i = frame(time);
-    return 0.5 * (history_->hooks(FiberEnd::first)[i]->arclength + history_->hooks(FiberEnd::last)[i]->arclength) /
-           history_->shapes()[i].length;
-  }
-  const FiberHistory* history() const { return history_; }
-
- private:
-  const RunAnalysis* analysis_ = nullptr;
-  const FiberHistory* history_ = nullptr;
-  FiberSummary summary_;
-};
 
 double straightness(const Shape& shape) { return shape.distance / shape.length; }
+double half_turns(const Shape& shape) { return shape.total_turning / std::numbers::pi; }
 double n_bends(const Shape& shape) { return static_cast<double>(shape.bends.size()); }
 
 std::vector<AcceptanceRow> compare_table1() {
-  Rows rows("table1");
+  FigureRows rows("table1");
   const auto fiber_of = [](const PaperFiber& paper) {
     return make_fibers(make_paper_scene(paper.sections, paper.end).fibers)[0];
   };
@@ -123,7 +55,7 @@ std::vector<AcceptanceRow> compare_table1() {
   return rows.take();
 }
 
-void compare_tumbling(Rows& rows, const PaperRuns& runs) {
+void compare_tumbling(FigureRows& rows, const PaperRuns& runs) {
   const PaperRun run(runs, "L0139");
   const std::string snapshot = "Figure 2, first column";
   rows.add("L = 0.139: angle at t = 4.95 (degrees)", snapshot, compare_number(40, run.angle(4.95), 3));
@@ -139,7 +71,7 @@ void compare_tumbling(Rows& rows, const PaperRuns& runs) {
            compare_range(1, 5, run.has(11.0) ? -100.0 * run.summary().stretch_min : nan));
 }
 
-void compare_s_turn(Rows& rows, const PaperRuns& runs) {
+void compare_s_turn(FigureRows& rows, const PaperRuns& runs) {
   const PaperRun run(runs, "L0196");
   const std::string snapshot = "Figure 2, second column";
   for (const double time : {5.65, 6.5, 7.15})
@@ -151,7 +83,7 @@ void compare_s_turn(Rows& rows, const PaperRuns& runs) {
   rows.add("L = 0.196: regime", "Section 4", compare_word("S", run.has(14.0) ? name_of(run.summary().regime) : ""));
 }
 
-void compare_snaking(Rows& rows, const PaperRuns& runs) {
+void compare_snaking(FigureRows& rows, const PaperRuns& runs) {
   const PaperRun run(runs, "L0523");
   const std::string snapshot = "Figure 2, third column";
   for (const double time : {6.25, 8.0})
@@ -166,7 +98,7 @@ void compare_snaking(Rows& rows, const PaperRuns& runs) {
 }
 
 std::vector<AcceptanceRow> compare_figure2(const PaperRuns& runs) {
-  Rows rows("figure2");
+  FigureRows rows("figure2");
   compare_tumbling(rows, runs);
   compare_s_turn(rows, runs);
   compare_snaking(rows, runs);
@@ -180,7 +112,7 @@ std::vector<AcceptanceRow> compare_figure2(const PaperRuns& runs) {
 }
 
 std::vector<AcceptanceRow> compare_figure3(const PaperRuns& runs) {
-  Rows rows("figure3");
+  FigureRows rows("figure3");
   const auto add = [&](const char* name, const char* length, const char* panel, const double end, const char* wave) {
     rows.add(fmt::format("L = {}: extrema of curvature", length), panel,
              compare_word(wave, PaperRun(runs, name).wave(end)));
@@ -192,7 +124,7 @@ std::vector<AcceptanceRow> compare_figure3(const PaperRuns& runs) {
 }
 
 std::vector<AcceptanceRow> compare_figure4(const PaperRuns& runs) {
-  Rows rows("figure4");
+  FigureRows rows("figure4");
   const PaperRun run(runs, "L0931");
   rows.add("L = 0.931: bent ends at t = 4.95", "Figure 4", compare_range(2, infinity, run.at(4.95, [](const Shape& s) {
              return std::count_if(s.bends.begin(), s.bends.end(),
@@ -211,18 +143,30 @@ std::vector<AcceptanceRow> compare_figure4(const PaperRuns& runs) {
 }
 
 std::vector<AcceptanceRow> compare_figure5(const PaperRuns& runs) {
-  Rows rows("figure5");
+  FigureRows rows("figure5");
   const PaperRun run(runs, "L2280");
   rows.add("L = 2.28: hooks at t = 10", "Figure 5", compare_number(2, run.count_hooks(10.0), 0));
   rows.add("L = 2.28: bends at t = 36: many", "Figure 3 f", compare_range(6, infinity, run.at(36.0, n_bends)));
   rows.add("L = 2.28: total turning at t = 36 (half turns)", "Figure 5",
-           compare_range(3, infinity, run.at(36.0, [](const Shape& s) { return s.total_turning / std::numbers::pi; })));
+           compare_range(3, infinity, run.at(36.0, half_turns)));
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure6(const PaperRuns& runs) {
+  FigureRows rows("figure6");
+  const PaperRun run(runs, "L2280");
   rows.add("L = 2.28: shape at t = 110", "Figure 6", compare_word("three-dimensional", run.regime(110.0)));
+  rows.add("L = 2.28: total turning at t = 110 (half turns)", "Figure 6, an entangled state",
+           compare_range(3, infinity, run.at(110.0, half_turns)));
+  rows.add("L = 2.28: out of the plane at t = 110, in radii", "Figure 6",
+           compare_range(1, infinity, run.at(110.0, [](const Shape& s) {
+             return s.out_of_plane / make_paper_scene(2, 1.0).fibers[0].radius;
+           })));
   return rows.take();
 }
 
 std::vector<AcceptanceRow> compare_figure7(const PaperRuns& runs) {
-  Rows rows("figure7");
+  FigureRows rows("figure7");
   std::optional<Snaking> reference;
   for (const auto& [name, length] : {std::pair{"L0523", "0.523"}, {"L0931", "0.931"}, {"L2280", "2.28"}}) {
     if (runs.count(name) == 0 && reference) continue;
@@ -255,6 +199,18 @@ std::vector<AcceptanceRow> compare_figure7(const PaperRuns& runs) {
   return rows.take();
 }
 
+std::vector<AcceptanceRow> compare_figure8(const std::vector<SumTiming>& timings) {
+  FigureRows rows("figure8");
+  rows.add("nodes from which on the fast multipole method is faster", "Figure 8",
+           compare_range(-infinity, 1.7e4, find_crossover(timings)));
+  const SumTiming last = timings.empty() ? SumTiming{23634, nan, nan, nan} : timings.back();
+  rows.add(fmt::format("times faster than the direct sum, {} nodes", last.n_nodes),
+           "Section 4, computational considerations",
+           compare_range(1.6, infinity, last.direct_seconds / last.fmm_seconds));
+  rows.add("its error there", "ours: a tolerance of 1e-4", compare_range(-infinity, 1e-4, last.fmm_error));
+  return rows.take();
+}
+
 }  // namespace
 
 const std::vector<PaperFiber>& list_paper_fibers() {
@@ -262,7 +218,7 @@ const std::vector<PaperFiber>& list_paper_fibers() {
                                               {"L0196", 113, 30.0, 1.97e3, " figure2 figure3 "},
                                               {"L0523", 301, 26.0, 8.22e4, " figure2 figure3 figure4 figure7 "},
                                               {"L0931", 536, 31.25, 7.51e5, " figure4 "},
-                                              {"L2280", 1313, 110.0, 2.37e7, " figure5 "}};
+                                              {"L2280", 1313, 110.0, 2.37e7, " figure5 figure6 "}};
   return fibers;
 }
 
@@ -272,17 +228,22 @@ const std::vector<std::pair<std::string, std::string>>& list_paper_figures() {
       {"figure2", "tumbling, S-turn and snaking: lengths 0.139, 0.196, 0.523"},
       {"figure3", "curvature in time: standing and travelling extrema"},
       {"figure7", "radius and speed of the hooks"},
-      {"figure4", "length 0.931 to t = 31.25; hours"},
-      {"figure5", "length 2.28 to t = 110; days"}};
+      {"figure4", "length 0.931 to t = 31.25; minutes"},
+      {"figure5", "length 2.28 to t = 110; an hour"},
+      {"figure6", "length 2.28 at t = 110, seen from the side: the run of figure 5"},
+      {"figure8", "times of direct sums and of the fast multipole method; no runs"}};
   return figures;
 }
 
-std::vector<AcceptanceRow> compare_with_paper(const std::string& figure, const PaperRuns& runs) {
+std::vector<AcceptanceRow> compare_with_paper(const std::string& figure, const PaperRuns& runs,
+                                              const std::vector<SumTiming>& timings) {
   if (figure == "table1") return compare_table1();
   if (figure == "figure2") return compare_figure2(runs);
   if (figure == "figure3") return compare_figure3(runs);
   if (figure == "figure4") return compare_figure4(runs);
   if (figure == "figure5") return compare_figure5(runs);
+  if (figure == "figure6") return compare_figure6(runs);
+  if (figure == "figure8") return compare_figure8(timings);
   if (figure == "figure7") return compare_figure7(runs);
   throw Error(ExitCode::usage, fmt::format("there is no figure '{}' to reproduce.", figure));
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/acceptance.hpp"
+#include "app/paper_timings.hpp"
 #include "app/run_analysis.hpp"
 
 namespace skein {
@@ -28,7 +29,9 @@ const std::vector<std::pair<std::string, std::string>>& list_paper_figures();
 /// Analyses by the runs' names; rows of runs that are not there, or not yet far enough, are not reached.
 using PaperRuns = std::map<std::string, RunAnalysis>;
 
-/// @param figure  one of list_paper_figures()
-std::vector<AcceptanceRow> compare_with_paper(const std::string& figure, const PaperRuns& runs);
+/// @param figure   one of list_paper_figures()
+/// @param timings  of figure 8; empty: not reached
+std::vector<AcceptanceRow> compare_with_paper(const std::string& figure, const PaperRuns& runs,
+                                              const std::vector<SumTiming>& timings);
 
 }  // namespace skein

@@ -241,9 +241,47 @@ def check_errors(script, folder):
         check_fails(script, 74, "No space left", folder / "run", "-o", folder / "full")
 
 
+class LongRun:
+    """As much of a run as the picture of the tangle asks for: one helix of hexagons, at t = 110."""
+
+    n_sections, lengths, frame_times = 200, np.array([2.28]), np.array([0.0, 110.0])
+
+    def dataset(self, name):
+        check(name == "/particles/fibers/position/value", f"the tangle asks for {name}")
+        turn, around = np.linspace(0.0, 12.0, self.n_sections)[:, None], np.linspace(0.0, 2.0 * np.pi, 7)[None, :6]
+        wide = 0.1 + 0.01 * np.cos(around)
+        nodes = np.stack([wide * np.cos(turn), wide * np.sin(turn), 0.02 * turn + 0.01 * np.sin(around)], axis=2)
+        return np.stack([np.full_like(nodes, np.nan), nodes]).reshape(2, -1, 3)
+
+
+def check_tangle(script, folder):
+    sys.path.insert(0, str(pathlib.Path(script).parent))
+    import style
+    import tangle
+    from run_reader import Nothing
+
+    right, up, eye = tangle.view()
+    check(np.allclose(np.stack([right, up, eye]) @ np.stack([right, up, eye]).T, np.eye(3)), "the view is oblique")
+    check(np.linalg.det(np.stack([right, up, eye])) > 0.0, "the view is a mirror image")
+    figure = tangle.draw({"L2280": LongRun()})
+    faces, = figure.axes[0].collections
+    check(len(faces.get_paths()) == 199 * 6, "faces are missing")
+    check(np.isfinite(figure.axes[0].get_xlim()).all(), "the frame at t = 110 is not the one that is drawn")
+    check(os.path.getsize(style.save(figure, folder, "figure6", "png")) > 10000, "the tangle is not drawn")
+    short = LongRun()
+    short.frame_times = np.array([0.0, 100.0])
+    for runs in ({}, {"L2280": short}):
+        try:
+            tangle.draw(runs)
+            check(False, "a tangle is drawn from nothing")
+        except Nothing:
+            pass
+
+
 def main():
     script = sys.argv[1]
-    for part in (check_complete_run, check_options, check_poor_runs, check_analysis_is_of_the_run, check_errors):
+    for part in (check_complete_run, check_options, check_poor_runs, check_analysis_is_of_the_run, check_errors,
+                 check_tangle):
         with tempfile.TemporaryDirectory() as folder:
             part(script, pathlib.Path(folder))
 

@@ -27,6 +27,10 @@ def skein(*arguments, codes=(DONE,)):
 def check_table(program, folder):
     rows = json.loads(skein(program, "reproduce", "lagrone2019", "table1", "--json", "--no-plots", "-o", folder).stdout)
     check(len(rows) == 14 and all(row["verdict"] == "agrees" for row in rows), f"table 1: {rows}")
+    # Whoever else uses the machine: not the numbers.
+    result = skein(program, "reproduce", "lagrone2019", "figure8", "--json", "-o", folder, codes=(DONE, NUMERICAL))
+    check({row["verdict"] for row in json.loads(result.stdout)} <= {"agrees", "DIFFERS"}, f"figure 8: {result.stdout}")
+    check((folder / "figure8.png").stat().st_size > 10000, f"figure 8 is not drawn: {result.stderr}")
     skein(program, "reproduce", "somebody2020", codes=(USAGE,))
     skein(program, "reproduce", "lagrone2019", "figure1", codes=(USAGE,))
 

@@ -62,7 +62,7 @@ TEST(PaperScenes, CoarseFibersKeepLengthAndRigidity) {
 }
 
 TEST(PaperTable, NeedsNoRunsForGeometry) {
-  const auto rows = compare_with_paper("table1", {});
+  const auto rows = compare_with_paper("table1", {}, {});
   EXPECT_EQ(rows.size(), 14u);
   for (const AcceptanceRow& row : rows) EXPECT_EQ(row.verdict, Verdict::agrees) << row.quantity << " " << row.skein;
 }
@@ -70,7 +70,7 @@ TEST(PaperTable, NeedsNoRunsForGeometry) {
 TEST(PaperTable, RunsThatAreNotThereAreNotReached) {
   for (const auto& [figure, what] : list_paper_figures()) {
     if (figure == "table1") continue;
-    const auto rows = compare_with_paper(figure, {});
+    const auto rows = compare_with_paper(figure, {}, {});
     EXPECT_FALSE(rows.empty()) << figure;
     for (const AcceptanceRow& row : rows) {
       EXPECT_EQ(row.verdict, Verdict::not_reached) << row.quantity;
@@ -78,7 +78,7 @@ TEST(PaperTable, RunsThatAreNotThereAreNotReached) {
       EXPECT_FALSE(row.source.empty()) << row.quantity;
     }
   }
-  EXPECT_ANY_THROW(compare_with_paper("figure99", {}));
+  EXPECT_ANY_THROW(compare_with_paper("figure99", {}, {}));
 }
 
 /// A rigid rod on its orbit (Jeffery 1922), half turn of the given duration.
@@ -106,7 +106,7 @@ TEST(PaperTable, ARigidRodHasTheOrbitButNotTheBends) {
   PaperRuns runs;
   runs.emplace("L0139", make_rigid_run(10.9, 12.0));
   int n_angles = 0;
-  for (const AcceptanceRow& row : compare_with_paper("figure2", runs)) {
+  for (const AcceptanceRow& row : compare_with_paper("figure2", runs, {})) {
     const bool is_angle = row.quantity.find("0.139: angle") != std::string::npos ||
                           row.quantity.find("0.139: half period") != std::string::npos;
     n_angles += is_angle;
@@ -123,15 +123,37 @@ TEST(PaperTable, ARigidRodHasTheOrbitButNotTheBends) {
   // A run that has not come far enough yet.
   runs.clear();
   runs.emplace("L0139", make_rigid_run(10.9, 5.0));
-  const auto rows = compare_with_paper("figure2", runs);
+  const auto rows = compare_with_paper("figure2", runs, {});
   EXPECT_EQ(rows[0].verdict, Verdict::agrees);
   EXPECT_EQ(rows[2].verdict, Verdict::not_reached);
+}
+
+TEST(PaperTimings, TheCrossoverLiesBetweenTheSizesByAPowerLaw) {
+  // direct = (n / 1000)^2 ms, fmm = n / 500 ms: equal at 2000 nodes.
+  std::vector<SumTiming> timings;
+  for (const int n : {500, 1500, 4500, 13500}) timings.push_back({n, 1e-9 * n * n, 2e-6 * n, 1e-5});
+  EXPECT_NEAR(find_crossover(timings), 2000.0, 1e-6);
+  // A size that is slower once more moves it up.
+  timings[2].fmm_seconds = 2.0 * timings[2].direct_seconds;
+  EXPECT_GT(find_crossover(timings), 4500.0);
+  timings.back().fmm_seconds = 1.0;
+  EXPECT_TRUE(std::isnan(find_crossover(timings)));
+  EXPECT_EQ(find_crossover({{700, 2.0, 1.0, 0.0}}), 700.0);
+  EXPECT_TRUE(std::isnan(find_crossover({})));
+}
+
+TEST(PaperTimings, RowsOfFigure8) {
+  const auto rows = compare_with_paper("figure8", {}, {{10000, 1.0, 1.5, 1e-5}, {23634, 5.0, 3.5, 2e-4}});
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].verdict, Verdict::agrees);   // below 17 000, by interpolation
+  EXPECT_EQ(rows[1].verdict, Verdict::differs);  // 1.43 times
+  EXPECT_EQ(rows[2].verdict, Verdict::differs);
 }
 
 TEST(PaperTable, ASlowRodDiffers) {
   PaperRuns runs;
   runs.emplace("L0139", make_rigid_run(12.0, 13.0));
-  const auto rows = compare_with_paper("figure2", runs);
+  const auto rows = compare_with_paper("figure2", runs, {});
   EXPECT_EQ(rows[0].verdict, Verdict::differs);
 }
 

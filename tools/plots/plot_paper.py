@@ -12,6 +12,8 @@ import numpy as np
 
 import shapes
 import style
+import tangle
+import timings
 from diagnostics import open_diagnostics
 from kymograph import cell_edges
 from run_reader import Nothing, PlotError, Run
@@ -210,7 +212,7 @@ def draw_hook(panel, figure, run, time):
 
 
 FIGURES = {"figure2": draw_snapshots, "figure3": draw_curvature, "figure4": draw_long("L0931"),
-           "figure5": draw_long("L2280"), "figure7": draw_hooks}
+           "figure5": draw_long("L2280"), "figure6": tangle.draw, "figure7": draw_hooks}
 
 
 def main():
@@ -223,7 +225,8 @@ def main():
     suffix = "" if options.nodes == 18 else f"_{options.nodes}"
     try:
         runs = open_runs(options.folder, suffix)
-        for name, draw in FIGURES.items():
+        figures = {**FIGURES, "figure8": lambda _: timings.draw(options.folder)}
+        for name, draw in figures.items():
             try:
                 figure = draw(runs)
             except Nothing as reason:
