@@ -125,7 +125,9 @@ struct RegularizedField {
   static constexpr int n_columns = 1;
   static constexpr bool shifts = false;
   double blob_squared = 0.0;  ///< length^2; in units of a box after at()
-  KOKKOS_INLINE_FUNCTION RegularizedField at(const double half_width) const { return {blob_squared / (half_width * half_width)}; }
+  KOKKOS_INLINE_FUNCTION RegularizedField at(const double half_width) const {
+    return {blob_squared / (half_width * half_width)};
+  }
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
