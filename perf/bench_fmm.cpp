@@ -8,6 +8,7 @@
 #include <skein/hydro/fmm_mobility.hpp>
 
 #include "harness.hpp"
+#include "node_arrangements.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -21,49 +22,9 @@
 namespace {
 
 using namespace skein;
+using namespace skein::perf;
 
 constexpr double viscosity = 1.7;
-constexpr double radius = 0.005, spacing = 0.00173648, fiber_blob = 0.00225;
-constexpr int around = 18;
-
-/// A circle of surface nodes about `center`, in the plane of two unit vectors.
-void add_section(std::vector<Vec3>& nodes, const Vec3 center, const Vec3 one, const Vec3 other) {
-  for (int a = 0; a < around; ++a) {
-    const double angle = 2.0 * std::numbers::pi * a / around;
-    nodes.push_back(center + radius * std::cos(angle) * one + radius * std::sin(angle) * other);
-  }
-}
-
-std::vector<Vec3> make_straight(const int n_nodes) {
-  std::vector<Vec3> nodes;
-  for (int s = 0; s < n_nodes / around; ++s)
-    add_section(nodes, {(s - 0.5 * (n_nodes / around - 1)) * spacing, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0});
-  return nodes;
-}
-
-/// A planar Archimedean spiral whose arms are `pitch` apart.
-std::vector<Vec3> make_spiral(const int n_nodes) {
-  constexpr double pitch = 0.03, growth = pitch / (2.0 * std::numbers::pi);
-  std::vector<Vec3> nodes;
-  double angle = 2.0 * std::numbers::pi;
-  for (int s = 0; s < n_nodes / around; ++s) {
-    const double r = growth * angle, c = std::cos(angle), i = std::sin(angle);
-    const Vec3 along{growth * c - r * i, growth * i + r * c, 0.0};
-    const double speed = norm(along);
-    add_section(nodes, {r * c, r * i, 0.0}, {-along.y / speed, along.x / speed, 0.0}, {0.0, 0.0, 1.0});
-    angle += spacing / speed;
-  }
-  return nodes;
-}
-
-std::vector<Vec3> make_uniform(const int n_nodes) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  std::vector<Vec3> nodes(static_cast<std::size_t>(n_nodes));
-  for (Vec3& node : nodes) node = {uniform(random), uniform(random), uniform(random)};
-  return nodes;
-}
-
 struct Case {
   Case(const std::vector<Vec3>& nodes, const double blob_size)
       : n(static_cast<int>(nodes.size())),
@@ -372,7 +333,7 @@ void bench_chart(const bool tiny) {
       options.tolerance = field == FarField::harmonic ? 2.5 * error : 1.0;  // allows single precision, or not
       FmmMobility fmm(viscosity, options);                                  // its operators serve all numbers of nodes
       for (auto& [problem, repeats] : references) {
-        if (options.min_half_width > problem.n * spacing / around / 6.0) continue;  // no leaf is far from another
+        if (options.min_half_width > tube_length(problem.n) / 6.0) continue;  // no leaf is far from another
         problem.compute(fmm);
         const auto seconds = perf::median_seconds(repeats, std::vector<std::function<void()>>{[&] {
                                                     problem.move_nodes();
