@@ -25,6 +25,7 @@ using namespace skein;
 using namespace skein::perf;
 
 constexpr double viscosity = 1.7;
+
 struct Case {
   Case(const std::vector<Vec3>& nodes, const double blob_size)
       : n(static_cast<int>(nodes.size())),
