@@ -229,7 +229,7 @@ const std::vector<std::pair<std::string, std::string>>& list_paper_figures() {
       {"figure3", "curvature in time: standing and travelling extrema"},
       {"figure7", "radius and speed of the hooks"},
       {"figure4", "length 0.931 to t = 31.25; minutes"},
-      {"figure5", "length 2.28 to t = 110; an hour"},
+      {"figure5", "length 2.28 to t = 110; half an hour"},
       {"figure6", "length 2.28 at t = 110, seen from the side: the run of figure 5"},
       {"figure8", "times of direct sums and of the fast multipole method; no runs"}};
   return figures;

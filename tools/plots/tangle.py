@@ -46,6 +46,7 @@ def draw(runs):
     flat = np.stack([faces @ right, faces @ up], axis=2)[order]
 
     low, high = flat.min(axis=(0, 1)), flat.max(axis=(0, 1))
+    low[1] -= 0.1 * (high[1] - low[1])  # room for the scale
     middle, half = 0.5 * (low + high), 0.53 * (high - low)
     width = style.WIDTH
     figure = plt.figure(figsize=(width, width * half[1] / half[0] + 0.6))
