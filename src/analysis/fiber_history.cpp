@@ -33,10 +33,8 @@ LineFit fit_first_growth(const std::vector<double>& time, const std::vector<doub
                          const double fiber_length) {
   const double rounding = std::numeric_limits<double>::epsilon() * fiber_length;
   const double low = std::max(3.0 * deflection.front(), 1e3 * rounding), high = 0.01 * fiber_length;
-  const auto is_above = [](const double limit) { return [=](const double d) { return !(d < limit); }; };
-  const auto first = std::find_if(deflection.begin(), deflection.end(), is_above(low));
-  const auto top = std::is_sorted_until(first, deflection.end());
-  const auto last = std::find_if(first, top, is_above(high));
+  const auto first = std::find_if(deflection.begin(), deflection.end(), [=](const double d) { return d >= low; });
+  const auto last = std::lower_bound(first, std::is_sorted_until(first, deflection.end()), high);
   const auto offset = static_cast<std::size_t>(first - deflection.begin());
   const auto count = static_cast<std::size_t>(last - first);
   return fit_growth(std::span(time).subspan(offset, count), std::span(deflection).subspan(offset, count), low, high);

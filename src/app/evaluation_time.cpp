@@ -12,12 +12,11 @@
 
 namespace skein {
 
-EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
-  const Vectors velocity("skein::time_evaluation", position.extent(0));
+double time_calls(const std::function<void()>& call) {
   std::vector<double> seconds;
   for (int repeat = 0; repeat < 6; ++repeat) {
     const auto start = WallClock::now();
-    dynamics.compute_velocity(0.0, position, velocity);
+    call();
     Kokkos::fence();
     const double last = seconds_since(start);
     const bool is_long = last > 1.0;  // a rough figure will do
@@ -25,8 +24,13 @@ EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& posi
     if (is_long) break;
   }
   std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {
+  const Vectors velocity("skein::time_evaluation", position.extent(0));
   EvaluationCost cost;
-  cost.seconds = seconds[seconds.size() / 2];
+  cost.seconds = time_calls([&] { dynamics.compute_velocity(0.0, position, velocity); });
   return cost;
 }
 

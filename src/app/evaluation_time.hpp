@@ -3,6 +3,7 @@
 #include <skein/config/scene_config.hpp>
 #include <skein/time/fiber_dynamics.hpp>
 
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -14,6 +15,9 @@ struct EvaluationCost {
   double direct_seconds = 0.0;                                ///< of a direct sum, where the evaluation is none; else 0
 };
 EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position);
+
+/// The median wall time of five calls after a first one, seconds; one call of more than a second is enough.
+double time_calls(const std::function<void()>& call);
 
 /// Wall time of a direct sum over all nodes, seconds, estimated from one over some of them.
 double time_direct_sum(const ConstVectors& position, double viscosity);

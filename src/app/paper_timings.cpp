@@ -1,23 +1,20 @@
 #include "app/paper_timings.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <skein/core/stopwatch.hpp>
 #include <skein/hydro/direct_mobility.hpp>
 #include <skein/hydro/fmm_mobility.hpp>
 #include <skein/io/array_file.hpp>
 #include <skein/scene/fiber.hpp>
 #include <string>
-#include <utility>
 
+#include "app/evaluation_time.hpp"
 #include "app/paper_scenes.hpp"
 
 namespace skein {
 namespace {
 
 constexpr double viscosity = 1.0;  // of the paper
-constexpr int n_repeats = 5;
 
 /// Forces without a direction in common, of one size.
 std::vector<Vec3> make_forces(const std::size_t n) {
@@ -29,32 +26,8 @@ std::vector<Vec3> make_forces(const std::size_t n) {
   return force;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The median of some sums after a first one, which builds what is kept; the last sum stays in `velocity`.
 double time_sums(Mobility& mobility, const Sources& sources, const Vectors& velocity) {
-  std::vector<double> seconds;
-  for (int repeat = 0; repeat <= n_repeats; ++repeat) {
-    Kokkos::deep_copy(velocity, 0.0);
-    const auto start = WallClock::now();
-    mobility.add_velocity(sources, sources.position, velocity);
-    Kokkos::fence();
-    if (repeat > 0) seconds.push_back(seconds_since(start));
-  }
-  return median(std::move(seconds));
-}
-
-double compare(const std::vector<Vec3>& got, const std::vector<Vec3>& exact) {
-  double difference = 0.0, size = 0.0;
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    difference += dot(got[i] - exact[i], got[i] - exact[i]);
-    size += dot(exact[i], exact[i]);
-  }
-  return std::sqrt(difference / size);
+  return time_calls([&] { mobility.add_velocity(sources, sources.position, velocity); });
 }
 
 }  // namespace
@@ -75,9 +48,8 @@ std::vector<SumTiming> time_paper_sums() {
     SumTiming timing;
     timing.n_nodes = static_cast<int>(nodes.size());
     timing.direct_seconds = time_sums(direct, sources, velocity);
-    const auto exact = to_host(ConstVectors(velocity));
     timing.fmm_seconds = time_sums(fmm, sources, velocity);
-    timing.fmm_error = compare(to_host(ConstVectors(velocity)), exact);
+    timing.fmm_error = fmm.measure_error(sources, sources.position, timing.n_nodes);
     timings.push_back(timing);
   }
   return timings;

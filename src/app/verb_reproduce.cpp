@@ -58,8 +58,6 @@ ExitCode run_needed(const ReproduceOptions& options, const std::vector<std::stri
   return ExitCode::done;
 }
 
-bool needs_runs(const std::string& figure) { return figure != "table1" && figure != "figure8"; }
-
 bool is_among(const std::string& figure, const std::vector<std::string>& figures) {
   return std::find(figures.begin(), figures.end(), figure) != figures.end();
 }
@@ -85,8 +83,10 @@ int reproduce(const ReproduceOptions& options) {
   {
     const Runtime runtime(options.threads);
     code = run_needed(options, figures);
-    const bool has_runs = std::any_of(figures.begin(), figures.end(), needs_runs);
-    const PaperRuns runs = has_runs ? analyze_runs(options) : PaperRuns{};
+    const auto& fibers = list_paper_fibers();
+    const bool needs_runs =
+        std::any_of(fibers.begin(), fibers.end(), [&](const PaperFiber& fiber) { return is_needed(fiber, figures); });
+    const PaperRuns runs = needs_runs ? analyze_runs(options) : PaperRuns{};
     fs::create_directories(options.output);
     std::vector<SumTiming> timings;
     if (is_among("figure8", figures) && !options.no_runs) {
