@@ -2,6 +2,8 @@
 
 #include <skein/core/error.hpp>
 
+#include "kernels/node_checks.hpp"
+
 #include <algorithm>
 
 namespace skein {
@@ -194,7 +196,7 @@ void DeviceOctree<Space>::build(const Space& space, const ConstVectorView<Space>
   SKEIN_REQUIRE(rules.leaf_size >= 1, "a leaf holds at least one node");
   n_sources = source.extent_int(0);
   n_targets = target.extent_int(0);
-  same_nodes = source.data() == target.data() && n_sources == n_targets;
+  same_nodes = are_same_nodes(source, target);
   cube = choose_cube<Space>(space, *this, source, target, rules);
   const KeyOf key_of = make_key_of(cube.corner, cube.side, cube.max_depth);
   const auto sort = [&](const Nodes<Space>& nodes, KeyedOrder<Space>& keyed) {

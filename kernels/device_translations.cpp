@@ -23,9 +23,6 @@ struct Passes {
   }
 };
 
-/// One axis of the way from a parent's centre to a child's, in the child's half-widths: 1 or -1.
-KOKKOS_INLINE_FUNCTION int child_side(const int octant, const int axis) { return (octant >> axis & 1) != 0 ? 1 : -1; }
-
 template <class Space, class Real, class Field>
 struct PotentialScratch {
   explicit PotentialScratch(const DeviceLevels<Space, Real>& levels) : n_values(Field::n_planes * levels.n_padded) {}

@@ -3,7 +3,6 @@
 #include "kernels/host_scratch.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace skein {
 namespace {
@@ -195,11 +194,6 @@ struct Branches {
   Run roots;
 };
 
-/// From a parent's centre to a child's along each axis, in the child's half-widths: 1 or -1.
-std::array<int, 3> child_offset(const int octant) {
-  return {octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1};
-}
-
 /// Children to parents of one level (M2M).
 template <class Real, class Field>
 void pass_up(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
@@ -215,8 +209,8 @@ void pass_up(const Octree& tree, const std::vector<const OperatorSet<Real>*>& le
       const Box& box = box_of(tree, child);
       if (box.sources.count == 0) continue;
       // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
-      const auto offset = child_offset(box.octant);
-      const Real shift[3] = {Real(0.5) * offset[0], Real(0.5) * offset[1], Real(0.5) * offset[2]};
+      Real shift[3];
+      for (int c = 0; c < 3; ++c) shift[c] = Real(0.5) * Real(child_side(box.octant, c));
       const int reflected = 7 & ~box.octant;
       batch.add(coefficients.source.data() + static_cast<std::ptrdiff_t>(child) * coefficients.box_size,
                 coefficients.stride, below.rank_padded, &below.sign(0, reflected), Real(0.5), shift,
@@ -341,8 +335,8 @@ void pass_down(const Octree& tree, const std::vector<const OperatorSet<Real>*>& 
   for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
     const Box& box = box_of(tree, b);
     if (box.targets.count == 0) continue;
-    const auto offset = child_offset(box.octant);
-    const Real shift[3] = {Real(-offset[0]), Real(-offset[1]), Real(-offset[2])};
+    Real shift[3];
+    for (int c = 0; c < 3; ++c) shift[c] = Real(-child_side(box.octant, c));
     const int reflected = 7 & ~box.octant;
     batch.add(coefficients.target.data() + static_cast<std::ptrdiff_t>(box.parent) * coefficients.box_size,
               coefficients.stride, above.rank_padded, &above.sign(0, reflected), Real(2), shift,

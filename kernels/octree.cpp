@@ -2,6 +2,8 @@
 
 #include <skein/core/error.hpp>
 
+#include "kernels/node_checks.hpp"
+
 #include <algorithm>
 
 namespace skein {
@@ -61,7 +63,7 @@ void Octree::choose_cube(const Nodes& source, const Nodes& target, const OctreeR
 
 void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& rules) {
   SKEIN_REQUIRE(rules.leaf_size >= 1, "a leaf holds at least one node");
-  same_nodes_ = source.data() == target.data() && source.extent(0) == target.extent(0);
+  same_nodes_ = are_same_nodes(source, target);
   choose_cube(source, target, rules);
   const KeyOf key_of = make_key_of(cube_.corner, cube_.side, cube_.max_depth);
   const auto sort = [&](const Nodes& nodes, Kokkos::View<int*, HostSpace>& order,

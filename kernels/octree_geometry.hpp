@@ -46,6 +46,9 @@ KOKKOS_INLINE_FUNCTION int reflected_axes(const signed char (&t)[3]) {
   return (t[0] < 0) + 2 * (t[1] < 0) + 4 * (t[2] < 0);
 }
 
+/// One axis of the way from a parent's centre to a child's, in the child's half-widths: 1 or -1.
+KOKKOS_INLINE_FUNCTION int child_side(const int octant, const int axis) { return (octant >> axis & 1) != 0 ? 1 : -1; }
+
 /// True where two boxes share a point.
 KOKKOS_INLINE_FUNCTION bool touch(const Box& a, const Box& b) {
   const Box& coarse = a.level < b.level ? a : b;

@@ -7,8 +7,8 @@ namespace skein {
 bool DeviceFmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
   nodes_ = {sources.position, sources.force, target, sources.blob};
   blobs_ = find_blob_range<ExecSpace>(space_, sources.blob);
-  const bool same = target.data() == sources.position.data() && target.extent(0) == sources.position.extent(0);
-  return are_finite<ExecSpace>(space_, sources.position) && (same || are_finite<ExecSpace>(space_, target));
+  return are_finite<ExecSpace>(space_, sources.position) &&
+         (are_same_nodes(sources.position, target) || are_finite<ExecSpace>(space_, target));
 }
 
 bool DeviceFmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
@@ -40,12 +40,7 @@ void DeviceFmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, 
   LapTimer watch;
   const auto levels = in.operators.require(in.store.require(options.far_field, plan, blobs_.largest, tree_));
   statistics.operators_seconds = watch.lap();
-  if (options.far_field == FarField::harmonic)
-    pass<Real>(plan, HarmonicField{}, levels, in.coefficients);
-  else if (options.far_field == FarField::stokeslet)
-    pass<Real>(plan, StokesletField{options.stokes_part_only}, levels, in.coefficients);
-  else
-    pass<Real>(plan, RegularizedField{blobs_.largest * blobs_.largest}, levels, in.coefficients);
+  with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, in.coefficients); });
   statistics.memory_bytes = in.store.bytes() + in.operators.bytes() +
                             2.0 * sizeof(Real) * static_cast<double>(in.coefficients.source.size()) + sorted_.bytes() +
                             tree_.bytes();
@@ -65,18 +60,10 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
                                                         team_size_);
   space_.fence();
   statistics.far_seconds = watch.lap();
-  const auto add_leaves = [&](auto near) {
+  with_near_precision<Real>(plan, [&](auto near) {
     add_leaf_velocities_by_teams<ExecSpace, decltype(near), Real, Field>(space_, tree_, sorted_, field, levels,
                                                                          coefficients, own_velocity_, team_size_);
-  };
-  if constexpr (std::is_same_v<Real, float>) {
-    if (plan.near_in_single)
-      add_leaves(float{});
-    else
-      add_leaves(double{});
-  } else {
-    add_leaves(double{});
-  }
+  });
   space_.fence();
   statistics.leaf_seconds = watch.lap();
 }

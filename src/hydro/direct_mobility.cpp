@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 
+#include "kernels/node_checks.hpp"
 #include "kernels/stokeslet_direct.hpp"
 
 #include <algorithm>
@@ -17,9 +18,7 @@ PairPrecision pair_precision(const Precision precision) {
 /// blobs. Looked up at every call: n comparisons beside n^2 pairs, and nothing to go stale when the caller changes an
 /// array.
 [[maybe_unused]] bool is_symmetric(const Sources& sources, const ConstVectors& target) {
-  if (target.data() != sources.position.data() || target.extent(0) != sources.position.extent(0) ||
-      target.extent_int(0) < min_symmetric_nodes)
-    return false;
+  if (!are_same_nodes(sources.position, target) || target.extent_int(0) < min_symmetric_nodes) return false;
   const double* blob = sources.blob.data();
   return std::all_of(blob, blob + sources.blob.extent(0), [=](const double value) { return value == *blob; });
 }

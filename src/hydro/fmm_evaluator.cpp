@@ -18,7 +18,7 @@ bool FmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
   nodes_.position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.position);
   nodes_.force = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.force);
   nodes_.blob = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.blob);
-  const bool same = target.data() == sources.position.data() && target.extent(0) == sources.position.extent(0);
+  const bool same = are_same_nodes(sources.position, target);
   if (same)
     nodes_.target = nodes_.position;
   else
@@ -31,7 +31,7 @@ bool FmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
 void FmmEvaluator::sort_nodes(const double scale) {
   const HostNodes nodes = nodes_;
   const int n_sources = nodes.position.extent_int(0), n_targets = nodes.target.extent_int(0);
-  const bool same = nodes.target.data() == nodes.position.data() && n_sources == n_targets;
+  const bool same = are_same_nodes(nodes.position, nodes.target);
   resize(sorted_.position, n_sources, "sorted_position");
   resize(sorted_.force, n_sources, "sorted_force");
   if (sorted_.blob.extent_int(0) != n_sources) sorted_.blob = HostScalars("sorted_blob", n_sources);
@@ -86,14 +86,7 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
   }
   compute_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients);
   statistics.far_seconds = watch.lap();
-  if constexpr (std::is_same_v<Real, float>) {
-    if (plan.near_in_single)
-      add_leaves<float, Real>(field, levels, coefficients);
-    else
-      add_leaves<double, Real>(field, levels, coefficients);
-  } else {
-    add_leaves<double, Real>(field, levels, coefficients);
-  }
+  with_near_precision<Real>(plan, [&](auto near) { add_leaves<decltype(near), Real>(field, levels, coefficients); });
   statistics.leaf_seconds = watch.lap();
 }
 
@@ -101,15 +94,9 @@ template <class Real>
 void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, OperatorStore<Real>& store,
                           Coefficients<Real>& coefficients) {
   LapTimer watch;
-  const double blob = blobs_.largest;
-  const auto levels = store.require(options.far_field, plan, blob, tree_);
+  const auto levels = store.require(options.far_field, plan, blobs_.largest, tree_);
   statistics.operators_seconds = watch.lap();
-  if (options.far_field == FarField::harmonic)
-    pass<Real>(plan, HarmonicField{}, levels, coefficients);
-  else if (options.far_field == FarField::stokeslet)
-    pass<Real>(plan, StokesletField{options.stokes_part_only}, levels, coefficients);
-  else
-    pass<Real>(plan, RegularizedField{blob * blob}, levels, coefficients);
+  with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, coefficients); });
   statistics.memory_bytes = store.bytes() + 2.0 * sizeof(Real) * static_cast<double>(coefficients.source.size()) +
                             node_bytes() + tree_.bytes();
 }

@@ -50,8 +50,7 @@ Precision precision_of_direct_sums(const FmmOptions& options) {
 }
 
 FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
-  const bool same = target.data() == sources.position.data() && target.extent(0) == sources.position.extent(0);
-  return same ? FmmTargets::at_sources : FmmTargets::apart;
+  return are_same_nodes(sources.position, target) ? FmmTargets::at_sources : FmmTargets::apart;
 }
 
 }  // namespace
