@@ -28,13 +28,17 @@ function(skein_add_layer name)
   set_property(GLOBAL APPEND PROPERTY SKEIN_LAYER_TARGETS skein_${name})
 endfunction()
 
-add_subdirectory(src/core)
-add_subdirectory(src/config)
-add_subdirectory(src/scene)
+# What the pair loops need to vectorize and to fuse multiplications with additions. Never -ffast-math: split single
+# precision differences depend on the order in which they are written, and NaN must stay NaN.
+function(skein_compile_as_kernels)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS
+    "$<$<CXX_COMPILER_ID:GNU,Clang>:-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast>")
+endfunction()
+
+foreach(layer IN ITEMS core scene fibers arrays)
+  add_subdirectory(src/${layer})
+endforeach()
 add_subdirectory(kernels)
-add_subdirectory(src/model)
-add_subdirectory(src/hydro)
-add_subdirectory(src/time)
-add_subdirectory(src/io)
-add_subdirectory(src/analysis)
-add_subdirectory(src/app)
+foreach(layer IN ITEMS fmm physics solvers dynamics io analysis runs studies cli)
+  add_subdirectory(src/${layer})
+endforeach()

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <skein/core/portable.hpp>
-
-#include "kernels/simd.hpp"
+#include <skein/core/math.hpp>
+#include <skein/core/simd.hpp>
 
 #include <numbers>
 
@@ -10,11 +9,11 @@ namespace skein {
 
 namespace math {
 
-KOKKOS_INLINE_FUNCTION double inverse_sqrt_cubed(const double x) {
+SKEIN_INLINE_FUNCTION double inverse_sqrt_cubed(const double x) {
   const double y = inverse_sqrt(x);
   return y * y * y;
 }
-KOKKOS_INLINE_FUNCTION float inverse_sqrt_cubed(const float x) {
+SKEIN_INLINE_FUNCTION float inverse_sqrt_cubed(const float x) {
   const float y = inverse_sqrt(x);
   return y * y * y;
 }

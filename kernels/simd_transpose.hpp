@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/simd.hpp"
+#include <skein/core/simd.hpp>
 
 #include <cstddef>
 #include <utility>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <skein/core/types.hpp>
-
-#include "kernels/simd.hpp"
+#include <skein/arrays/types.hpp>
+#include <skein/core/simd.hpp>
 
 namespace skein {
 

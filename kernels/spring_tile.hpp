@@ -1,8 +1,8 @@
 #pragma once
 
-#include <skein/core/types.hpp>
+#include <skein/arrays/types.hpp>
+#include <skein/core/simd.hpp>
 
-#include "kernels/simd.hpp"
 #include "kernels/spring_force.hpp"
 
 // The springs of a few sections of a fiber on the host, one section in each lane: every spring is weighed once, its

@@ -1,9 +1,10 @@
 #include "kernels/stokeslet_direct.hpp"
 
 #include <skein/core/error.hpp>
-#include <utility>
 
 #include "kernels/stokeslet_block.hpp"
+
+#include <utility>
 
 namespace skein {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/core/types.hpp>
+#include <skein/arrays/types.hpp>
 
 namespace skein {
 

@@ -1,8 +1,7 @@
-#include "kernels/stokeslet_direct.hpp"
-
 #include <skein/core/error.hpp>
 
 #include "kernels/ordered_matches.hpp"
+#include "kernels/stokeslet_direct.hpp"
 #include "kernels/stokeslet_exchange.hpp"
 
 #include <cstdint>

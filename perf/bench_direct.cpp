@@ -1,8 +1,8 @@
 // Pairs per second of the direct sum: general and symmetric, double and single precision, beside a plain OpenMP loop in
 // the same run. Usage: bench_direct [nodes...]   (threads: OMP_NUM_THREADS)
 
-#include <skein/core/runtime.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/arrays/runtime.hpp>
+#include <skein/fibers/fiber.hpp>
 
 #include "harness.hpp"
 #include "kernels/stokeslet_direct.hpp"

@@ -3,9 +3,9 @@
 // and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [crossover] [uniform] [setup] [chart] [device] [tiny]
 // (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts only when asked.
 
-#include <skein/core/runtime.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/hydro/fmm_mobility.hpp>
+#include <skein/arrays/runtime.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 
 #include "harness.hpp"
 #include "node_arrangements.hpp"

@@ -1,11 +1,11 @@
 // What the repulsion between sections costs beside springs and fluid, in one run: one long fiber, bundles whose fibers
 // repel each other all along, and suspensions in which few do. Usage: bench_repulsion [tiny] (threads: OMP_NUM_THREADS)
 
-#include <skein/core/runtime.hpp>
-#include <skein/hydro/fmm_mobility.hpp>
-#include <skein/model/section_repulsion.hpp>
-#include <skein/model/spring_forces.hpp>
-#include <skein/scene/placement.hpp>
+#include <skein/arrays/runtime.hpp>
+#include <skein/fibers/placement.hpp>
+#include <skein/physics/fmm_mobility.hpp>
+#include <skein/physics/section_repulsion.hpp>
+#include <skein/physics/spring_forces.hpp>
 
 #include "harness.hpp"
 

@@ -1,6 +1,6 @@
 #include "harness.hpp"
 
-#include <skein/core/runtime.hpp>
+#include <skein/arrays/runtime.hpp>
 
 #include <cstdio>
 #include <fstream>

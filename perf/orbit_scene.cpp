@@ -1,8 +1,8 @@
 #include "perf/orbit_scene.hpp"
 
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/scene/calibration.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/fibers/calibration.hpp>
+#include <skein/fibers/fiber.hpp>
+#include <skein/physics/direct_mobility.hpp>
 
 #include <algorithm>
 #include <cmath>

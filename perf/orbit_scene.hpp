@@ -1,7 +1,7 @@
 #pragma once
 
-#include <skein/config/scene_config.hpp>
-#include <skein/time/fiber_dynamics.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/scene/scene_config.hpp>
 
 #include <vector>
 

@@ -3,16 +3,16 @@
 // from it. The exit status is 1 where an order is off by more than 0.2, or a controlled run by more than 1e-5 L.
 // Arguments: nodes=6 (on a section; the paper has 18), start=5.2, end=5.6.
 
-#include <skein/core/runtime.hpp>
-#include <skein/time/make_integrator.hpp>
-#include <skein/time/spectral_radius.hpp>
+#include <skein/arrays/runtime.hpp>
+#include <skein/dynamics/make_integrator.hpp>
+#include <skein/solvers/spectral_radius.hpp>
+
+#include "perf/orbit_scene.hpp"
 
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-
-#include "perf/orbit_scene.hpp"
 
 namespace skein::perf {
 namespace {

@@ -1,21 +1,21 @@
 // One run of a shear orbit by one method: what it cost, and where its nodes went, for perf/plot_work_precision.py and
 // perf/stability_atlas.py. Arguments are key=value; fewer nodes on a section keep the bending stiffness.
 
-#include <skein/core/runtime.hpp>
+#include <skein/arrays/runtime.hpp>
 #include <skein/core/stopwatch.hpp>
-#include <skein/time/make_integrator.hpp>
+#include <skein/dynamics/make_integrator.hpp>
+
+#include "perf/orbit_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <map>
 #include <string>
-
-#include "perf/orbit_scene.hpp"
 
 namespace skein::perf {
 namespace {

@@ -1,5 +1,5 @@
-#include "app/cli.hpp"
-#include "app/thread_waiting.hpp"
+#include "cli/cli.hpp"
+#include "cli/thread_waiting.hpp"
 
 int main(int argc, char** argv) {
   skein::limit_thread_spinning(argv);

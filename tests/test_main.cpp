@@ -1,4 +1,4 @@
-#include <skein/core/runtime.hpp>
+#include <skein/arrays/runtime.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
 #include <skein/analysis/curvature_extrema.hpp>
-
 #include <skein/core/error.hpp>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 #include <skein/analysis/fiber_history.hpp>
-
 #include <skein/core/error.hpp>
 
 #include <algorithm>

@@ -1,5 +1,4 @@
 #include <skein/analysis/force_moments.hpp>
-
 #include <skein/core/error.hpp>
 
 #include <limits>

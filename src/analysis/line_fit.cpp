@@ -1,5 +1,4 @@
 #include <skein/analysis/line_fit.hpp>
-
 #include <skein/core/error.hpp>
 
 #include <cmath>

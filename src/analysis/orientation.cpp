@@ -1,5 +1,4 @@
 #include <skein/analysis/orientation.hpp>
-
 #include <skein/core/error.hpp>
 
 #include <algorithm>

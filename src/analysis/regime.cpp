@@ -1,5 +1,4 @@
 #include <skein/analysis/regime.hpp>
-
 #include <skein/core/error.hpp>
 
 #include <algorithm>

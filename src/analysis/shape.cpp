@@ -1,7 +1,6 @@
-#include <skein/analysis/shape.hpp>
-
 #include <skein/analysis/centreline.hpp>
 #include <skein/analysis/orientation.hpp>
+#include <skein/analysis/shape.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
-#include <skein/analysis/signed_curvature.hpp>
-
 #include <skein/analysis/centreline.hpp>
+#include <skein/analysis/signed_curvature.hpp>
 #include <skein/core/error.hpp>
 
 #include <algorithm>

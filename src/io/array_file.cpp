@@ -1,6 +1,5 @@
-#include <skein/io/array_file.hpp>
-
 #include <skein/core/error.hpp>
+#include <skein/io/array_file.hpp>
 #include <skein/io/atomic_file.hpp>
 
 #include "hdf5_writer.hpp"

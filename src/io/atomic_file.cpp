@@ -1,7 +1,10 @@
-#include <skein/io/atomic_file.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/core/kill_point.hpp>
+#include <skein/io/atomic_file.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -9,10 +12,6 @@
 #include <iterator>
 #include <string>
 #include <utility>
-
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
 
 namespace skein {
 namespace {

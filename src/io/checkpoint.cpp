@@ -1,14 +1,13 @@
-#include <skein/io/checkpoint.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/checkpoint.hpp>
+
+#include <fmt/format.h>
+#include <xxhash.h>
 
 #include <bit>
 #include <cstring>
 #include <utility>
-
-#include <fmt/format.h>
-#include <xxhash.h>
 
 // A checkpoint file, all numbers little-endian, every part filled up with zeros to a multiple of 8 bytes:
 //

@@ -1,17 +1,16 @@
-#include <skein/io/checkpoint_folder.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/trajectory_end.hpp>
 
 #include "segment.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 #include <system_error>
-
-#include <fmt/format.h>
 
 namespace skein {
 namespace {

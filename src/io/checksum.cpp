@@ -4,11 +4,11 @@
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint.hpp>
 
-#include <algorithm>
-#include <new>
-
 #include <fmt/format.h>
 #include <xxhash.h>
+
+#include <algorithm>
+#include <new>
 
 namespace skein {
 namespace {

@@ -1,8 +1,8 @@
 #include <skein/io/event_log.hpp>
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace skein {
 namespace {

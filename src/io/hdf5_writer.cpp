@@ -5,10 +5,10 @@
 
 #include "checksum.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <memory>
-
-#include <fmt/format.h>
 
 namespace skein {
 namespace {

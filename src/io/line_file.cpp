@@ -1,14 +1,13 @@
-#include <skein/io/line_file.hpp>
-
 #include <skein/core/error.hpp>
-
-#include <cerrno>
-#include <cstring>
-#include <string>
+#include <skein/io/line_file.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
 
 namespace skein {
 

@@ -1,18 +1,17 @@
-#include <skein/io/run_check.hpp>
-
-#include <skein/config/scene_file.hpp>
 #include <skein/core/error.hpp>
 #include <skein/io/checkpoint_folder.hpp>
+#include <skein/io/run_check.hpp>
 #include <skein/io/trajectory_end.hpp>
+#include <skein/scene/scene_file.hpp>
 
 #include "hdf5_reader.hpp"
 #include "segment_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
-
-#include <fmt/format.h>
 
 namespace skein {
 namespace {

@@ -1,14 +1,13 @@
-#include <skein/io/run_folder.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/run_folder.hpp>
+
+#include <fmt/format.h>
 
 #include <array>
 #include <cctype>
 #include <string_view>
 #include <system_error>
-
-#include <fmt/format.h>
 
 namespace skein {
 namespace {

@@ -1,7 +1,12 @@
-#include <skein/io/run_lock.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/run_lock.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -9,12 +14,6 @@
 #include <cstring>
 #include <sstream>
 #include <string>
-
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace skein {
 namespace {

@@ -1,10 +1,10 @@
 #include <skein/io/run_log.hpp>
 
-#include <algorithm>
-#include <ctime>
-
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
 
 namespace skein {
 

@@ -1,15 +1,14 @@
-#include <skein/io/run_summary.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/run_folder.hpp>
+#include <skein/io/run_summary.hpp>
 
 #include "hdf5_reader.hpp"
 #include "segment.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <numeric>
-
-#include <fmt/format.h>
 
 namespace skein {
 namespace {

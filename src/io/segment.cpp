@@ -4,9 +4,9 @@
 
 #include "hdf5_reader.hpp"
 
-#include <limits>
-
 #include <fmt/format.h>
+
+#include <limits>
 
 namespace skein {
 

@@ -2,9 +2,9 @@
 
 #include <skein/core/error.hpp>
 
-#include <cstring>
-
 #include <fmt/format.h>
+
+#include <cstring>
 
 namespace skein {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <skein/config/scene_config.hpp>
 #include <skein/io/trajectory.hpp>
+#include <skein/scene/scene_config.hpp>
 
 #include "checksum.hpp"
 #include "hdf5_writer.hpp"

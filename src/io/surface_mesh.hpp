@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/scene/fiber.hpp>
+#include <skein/fibers/fiber.hpp>
 
 #include <array>
 #include <cstdint>

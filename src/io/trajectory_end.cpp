@@ -1,6 +1,5 @@
-#include <skein/io/trajectory_end.hpp>
-
 #include <skein/core/error.hpp>
+#include <skein/io/trajectory_end.hpp>
 
 #include "segment.hpp"
 

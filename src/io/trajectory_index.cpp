@@ -1,6 +1,6 @@
 #include "trajectory_index.hpp"
 
-#include <skein/core/runtime.hpp>
+#include <skein/core/version.hpp>
 
 #include "surface_mesh.hpp"
 

@@ -1,7 +1,6 @@
-#include <skein/io/trajectory_reader.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/run_summary.hpp>
+#include <skein/io/trajectory_reader.hpp>
 
 #include "hdf5_reader.hpp"
 #include "segment.hpp"

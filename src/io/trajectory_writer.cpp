@@ -1,7 +1,7 @@
-#include <skein/io/trajectory_writer.hpp>
-
 #include <skein/core/error.hpp>
+#include <skein/core/stopwatch.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/trajectory_writer.hpp>
 
 #include "segment.hpp"
 #include "series.hpp"
@@ -9,7 +9,6 @@
 #include "xdmf.hpp"
 
 #include <algorithm>
-#include <skein/core/stopwatch.hpp>
 #include <filesystem>
 #include <limits>
 #include <set>

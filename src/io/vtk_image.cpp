@@ -1,7 +1,6 @@
-#include <skein/io/vtk_image.hpp>
-
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/vtk_image.hpp>
 
 #include <fmt/format.h>
 

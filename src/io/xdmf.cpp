@@ -4,9 +4,9 @@
 
 #include "surface_mesh.hpp"
 
-#include <iterator>
-
 #include <fmt/format.h>
+
+#include <iterator>
 
 namespace skein {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <skein/config/scene_config.hpp>
+#include <skein/fibers/fiber.hpp>
 #include <skein/io/run_folder.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/scene/scene_config.hpp>
 
 #include "segment.hpp"
 

@@ -1,8 +1,10 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <skein/config/scene_config.hpp>
 #include <skein/core/vec3.hpp>
+#include <skein/scene/scene_config.hpp>
+
+#include <Eigen/Dense>
+
 #include <vector>
 
 // The linear operators of a straight fiber along x as dense matrices, from the formulas alone: no kernel, no fiber and

@@ -1,15 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Dense>
-#include <cmath>
 #include <skein/analysis/centreline.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/model/background_flow.hpp>
-#include <skein/model/spring_forces.hpp>
-#include <skein/time/fiber_dynamics.hpp>
-#include <skein/time/rkc2.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/spring_forces.hpp>
+#include <skein/solvers/rkc2.hpp>
 
 #include "tests/accuracy/dense_operators.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
 
 // A fiber along x in planar extension u = e (-x, y, 0): compressed, it buckles into a C, an S, ... above critical
 // rates.

@@ -1,12 +1,13 @@
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/spring_forces.hpp>
+
+#include "tests/accuracy/dense_operators.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/model/spring_forces.hpp>
-
-#include "tests/accuracy/dense_operators.hpp"
 
 // Small motions of a straight fiber in a fluid at rest: dx/dt = -M K x. With M = C C^T the rates of decay are the
 // eigenvalues of C^T K C. A section looks the same from each of its nodes, so the motions fall apart into angular

@@ -1,10 +1,10 @@
 // The L = 0.139 half turn: reference values of an independent prototype, which agree with the snapshot times of
 // LaGrone, Cortez, Yan and Fauci 2019 (Fig. "tumble", first column).
 
-#include "tests/support/paper_fiber.hpp"
+#include <skein/dynamics/make_integrator.hpp>
+#include <skein/solvers/euler.hpp>
 
-#include <skein/time/euler.hpp>
-#include <skein/time/make_integrator.hpp>
+#include "tests/support/paper_fiber.hpp"
 
 #include <gtest/gtest.h>
 

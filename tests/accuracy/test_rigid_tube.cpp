@@ -1,8 +1,8 @@
+#include "tests/accuracy/dense_operators.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "tests/accuracy/dense_operators.hpp"
 
 // A fiber held rigid: forces on the nodes that give them the velocity of a rigid body, or hold them in a flow.
 

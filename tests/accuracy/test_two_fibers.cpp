@@ -1,15 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <skein/analysis/centreline.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/model/background_flow.hpp>
-#include <skein/model/spring_forces.hpp>
-#include <skein/time/fiber_dynamics.hpp>
-#include <skein/time/rkc2.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/spring_forces.hpp>
+#include <skein/solvers/rkc2.hpp>
 
 #include "tests/reference/force_balance.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
 
 // Two fibers that cross in shear: what one does to the other, and what the sum of both may not do.
 

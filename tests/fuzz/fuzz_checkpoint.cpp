@@ -1,12 +1,13 @@
 // Any bytes are refused as damaged. So are bytes that have been given a right beginning, size and checksum, unless they
 // are a checkpoint that survives being encoded and decoded again.
 
+#include <skein/core/error.hpp>
+#include <skein/io/checkpoint.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <skein/core/error.hpp>
-#include <skein/io/checkpoint.hpp>
 #include <string>
 
 namespace {

@@ -1,9 +1,10 @@
 // Any bytes are a scene that is refused with a place in it, or one that survives being written and read again.
 
+#include <skein/scene/scene_file.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <skein/config/scene_file.hpp>
 #include <string>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, const std::size_t size) {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <skein/hydro/mobility.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
+#include <skein/physics/mobility.hpp>
 
 #include "tests/property/random_fluid.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include <functional>
 #include <map>

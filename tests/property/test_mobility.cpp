@@ -1,5 +1,5 @@
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/hydro/fmm_mobility.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 
 #include "tests/property/mobility_properties.hpp"
 #include "tests/reference/point_cloud.hpp"

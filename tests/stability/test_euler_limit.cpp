@@ -1,11 +1,11 @@
 // Forward Euler's limit for the paper's fiber: 2 over the spectral radius of the spring-mobility operator, where
 // sections ovalize with alternating sign.
 
-#include "tests/support/paper_fiber.hpp"
-
 #include <skein/core/error.hpp>
-#include <skein/time/euler.hpp>
-#include <skein/time/spectral_radius.hpp>
+#include <skein/solvers/euler.hpp>
+#include <skein/solvers/spectral_radius.hpp>
+
+#include "tests/support/paper_fiber.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Runs past every limit of stability: each ends, and with finite positions or an error that says so.
 
-#include "tests/support/paper_fiber.hpp"
-
 #include <skein/core/error.hpp>
-#include <skein/time/make_integrator.hpp>
+#include <skein/dynamics/make_integrator.hpp>
+
+#include "tests/support/paper_fiber.hpp"
 
 #include <gtest/gtest.h>
 

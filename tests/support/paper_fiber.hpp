@@ -1,12 +1,12 @@
 #pragma once
 
 #include <skein/analysis/centreline.hpp>
-#include <skein/config/scene_config.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/model/background_flow.hpp>
-#include <skein/model/spring_forces.hpp>
-#include <skein/time/fiber_dynamics.hpp>
-#include <skein/time/integrator.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/spring_forces.hpp>
+#include <skein/scene/scene_config.hpp>
+#include <skein/solvers/integrator.hpp>
 
 #include <cmath>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "tests/unit/known_solutions.hpp"
+#include <skein/solvers/linearization.hpp>
 
-#include <skein/time/linearization.hpp>
+#include "tests/unit/known_solutions.hpp"
 
 namespace skein {
 

@@ -1,5 +1,5 @@
-#include <skein/core/runtime.hpp>
-#include <skein/hydro/fmm_mobility.hpp>
+#include <skein/arrays/runtime.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 
 #include "tests/reference/point_cloud.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <skein/time/euler.hpp>
-#include <skein/time/rkc2.hpp>
+#include <skein/solvers/euler.hpp>
+#include <skein/solvers/rkc2.hpp>
 
 #include "tests/unit/pointwise_right_hand_side.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <skein/core/types.hpp>
-#include <skein/time/right_hand_side.hpp>
+#include <skein/arrays/types.hpp>
+#include <skein/solvers/right_hand_side.hpp>
 
 #include <cmath>
 #include <functional>

@@ -1,8 +1,9 @@
+#include <skein/arrays/runtime.hpp>
+#include <skein/physics/section_repulsion.hpp>
+#include <skein/physics/spring_forces.hpp>
+
 #include <cmath>
 #include <cstdio>
-#include <skein/core/runtime.hpp>
-#include <skein/model/section_repulsion.hpp>
-#include <skein/model/spring_forces.hpp>
 #include <string_view>
 
 // Prints a hash of the bits of forces and energies of springs and repulsion, for compare_thread_counts.cmake to compare

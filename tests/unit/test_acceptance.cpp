@@ -1,12 +1,11 @@
 // The comparison with a paper: verdicts, and its table for runs that are made up.
-#include "app/acceptance.hpp"
+#include <skein/fibers/calibration.hpp>
 
-#include <skein/scene/calibration.hpp>
+#include "studies/acceptance.hpp"
+#include "studies/lagrone2019.hpp"
+#include "studies/paper_scenes.hpp"
 
 #include <gtest/gtest.h>
-
-#include "app/lagrone2019.hpp"
-#include "app/paper_scenes.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,14 +1,15 @@
+#include <skein/core/error.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/linear_flow.hpp>
+#include <skein/physics/scene_flow.hpp>
+
+#include "tests/reference/point_cloud.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <skein/core/error.hpp>
-#include <skein/model/background_flow.hpp>
-#include <skein/model/linear_flow.hpp>
-#include <skein/model/scene_flow.hpp>
-
-#include "tests/reference/point_cloud.hpp"
 
 namespace skein {
 namespace {

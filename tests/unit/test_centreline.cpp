@@ -1,8 +1,8 @@
 #include <skein/analysis/centreline.hpp>
 
-#include <gtest/gtest.h>
-
 #include "tests/reference/point_cloud.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

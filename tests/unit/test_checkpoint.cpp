@@ -1,15 +1,16 @@
 // Checkpoint files: what they hold comes back, and no damage passes.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint.hpp>
 
 #include "tests/unit/error_code.hpp"
 #include "tests/unit/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
 
 namespace skein {
 namespace {

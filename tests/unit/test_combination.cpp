@@ -1,9 +1,9 @@
+#include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 
-#include <gtest/gtest.h>
-
-#include "kernels/combination.hpp"
 #include "tests/reference/point_cloud.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

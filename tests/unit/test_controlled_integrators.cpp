@@ -1,13 +1,13 @@
 // What every method with error control promises, against equations whose solutions are known.
 
-#include <gtest/gtest.h>
-
 #include <skein/core/error.hpp>
-#include <skein/time/explicit_runge_kutta.hpp>
-#include <skein/time/tr_bdf2.hpp>
+#include <skein/solvers/explicit_runge_kutta.hpp>
+#include <skein/solvers/tr_bdf2.hpp>
 
 #include "tests/unit/decaying_right_hand_side.hpp"
 #include "tests/unit/error_code.hpp"
+
+#include <gtest/gtest.h>
 
 namespace skein {
 namespace {

@@ -1,7 +1,8 @@
+#include <skein/core/counter_random.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <skein/core/counter_random.hpp>
 
 namespace skein {
 namespace {

@@ -2,9 +2,9 @@
 #include <skein/analysis/curvature_extrema.hpp>
 #include <skein/analysis/signed_curvature.hpp>
 
-#include <gtest/gtest.h>
-
 #include "known_curves.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>

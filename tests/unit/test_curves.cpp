@@ -4,9 +4,9 @@
 #include <skein/analysis/line_fit.hpp>
 #include <skein/analysis/signed_curvature.hpp>
 
-#include <gtest/gtest.h>
-
 #include "known_curves.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

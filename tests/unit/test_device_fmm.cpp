@@ -1,11 +1,11 @@
 #include <skein/core/error.hpp>
-#include <skein/hydro/fmm_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 
-#include <gtest/gtest.h>
-
-#include "src/hydro/device_fmm_evaluator.hpp"
+#include "fmm/device_fmm_evaluator.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>

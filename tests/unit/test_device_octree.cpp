@@ -1,10 +1,9 @@
-#include "kernels/device_octree.hpp"
-
-#include <gtest/gtest.h>
-
-#include "kernels/octree.hpp"
+#include "fmm/device_octree.hpp"
+#include "fmm/octree.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/unit/stokeslet_case.hpp"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

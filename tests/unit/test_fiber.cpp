@@ -1,9 +1,10 @@
+#include <skein/core/error.hpp>
+#include <skein/fibers/fiber.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-#include <skein/core/error.hpp>
-#include <skein/scene/fiber.hpp>
 
 namespace skein {
 namespace {

@@ -1,10 +1,9 @@
-#include "src/hydro/fmm_operators.hpp"
+#include "fmm/fmm_operators.hpp"
+#include "fmm/matrix_product.hpp"
+#include "fmm/octree.hpp"
+#include "tests/reference/point_cloud.hpp"
 
 #include <gtest/gtest.h>
-
-#include "kernels/matrix_product.hpp"
-#include "kernels/octree.hpp"
-#include "tests/reference/point_cloud.hpp"
 
 #include <algorithm>
 #include <cmath>

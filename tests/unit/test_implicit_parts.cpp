@@ -1,18 +1,17 @@
 // What implicit steps of fibers are made of: the springs' tangent, banded factors, GMRES, the fibers' linearization.
 
-#include <gtest/gtest.h>
-
 #include <skein/core/error.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/time/fiber_dynamics.hpp>
-#include <skein/time/gmres.hpp>
-#include <skein/time/method_selection.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/solvers/block_band.hpp>
+#include <skein/solvers/gmres.hpp>
+#include <skein/solvers/method_selection.hpp>
 
-#include <Eigen/Dense>
-
-#include "kernels/section_band.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
@@ -65,11 +64,11 @@ TEST(SpringTangent, IsTheDerivativeOfTheForcesAndSymmetric) {
               1e-11 * reference::norm_of(change) * reference::norm_of(w));
 }
 
-TEST(SectionBand, SolvesLikeADenseMatrix) {
+TEST(BlockBand, SolvesLikeADenseMatrix) {
   reference::Random random(7);
   for (const int half_width : {0, 1, 3, 20}) {
     const int n_sections = 9, size = 7, n = n_sections * size;
-    SectionBand band(n_sections, size, half_width);
+    BlockBand band(n_sections, size, half_width);
     band.set_to_zero();
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
     for (int row = 0; row < n; ++row)
@@ -87,7 +86,7 @@ TEST(SectionBand, SolvesLikeADenseMatrix) {
     // Factors are rounded to single precision: 6e-8 each.
     EXPECT_LT((dense * x - right).norm(), 1e-6 * right.norm()) << half_width;
   }
-  SectionBand singular(3, 2, 1);
+  BlockBand singular(3, 2, 1);
   singular.set_to_zero();
   EXPECT_FALSE(singular.factorize());
 }

@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "tests/unit/error_code.hpp"
 #include "tests/unit/known_solutions.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

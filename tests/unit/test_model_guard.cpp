@@ -1,7 +1,8 @@
-#include <gtest/gtest.h>
-#include <skein/model/spring_forces.hpp>
+#include <skein/physics/spring_forces.hpp>
 
-#include "app/model_guard.hpp"
+#include "runs/model_guard.hpp"
+
+#include <gtest/gtest.h>
 
 namespace skein {
 namespace {

@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "kernels/node_fault.hpp"
 #include "tests/reference/point_cloud.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

@@ -1,10 +1,9 @@
-#include "kernels/fmm_near_matches.hpp"
-#include "kernels/octree.hpp"
-
-#include <gtest/gtest.h>
-
+#include "fmm/fmm_near_matches.hpp"
+#include "fmm/octree.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/unit/stokeslet_case.hpp"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,14 @@
+#include <skein/core/error.hpp>
+#include <skein/fibers/placement.hpp>
+#include <skein/fibers/segment_distance.hpp>
+
+#include "tests/reference/point_cloud.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <skein/core/error.hpp>
-#include <skein/scene/placement.hpp>
-#include <skein/scene/segment_distance.hpp>
 #include <string>
-
-#include "tests/reference/point_cloud.hpp"
 
 namespace skein {
 namespace {

@@ -1,8 +1,9 @@
-#include <gtest/gtest.h>
+#include <skein/core/duration.hpp>
+#include <skein/core/json_text.hpp>
 
-#include "app/duration.hpp"
-#include "app/json_text.hpp"
-#include "app/progress.hpp"
+#include "runs/progress.hpp"
+
+#include <gtest/gtest.h>
 
 namespace skein {
 namespace {

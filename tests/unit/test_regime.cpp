@@ -1,9 +1,9 @@
 // Shapes and regimes of synthetic centrelines, one of each kind.
 #include <skein/analysis/fiber_history.hpp>
 
-#include <gtest/gtest.h>
-
 #include "known_curves.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,18 +1,19 @@
 // Every integrator, stopped after any step, goes on from what it says is its memory as if nothing had happened.
 
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/dynamics/make_integrator.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
+
+#include "runs/checkpoint_memory.hpp"
+#include "tests/unit/error_code.hpp"
+
 #include <gtest/gtest.h>
 
-#include <app/checkpoint_memory.hpp>
 #include <functional>
 #include <memory>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/hydro/fmm_mobility.hpp>
-#include <skein/time/fiber_dynamics.hpp>
-#include <skein/time/make_integrator.hpp>
 #include <utility>
 #include <vector>
-
-#include "tests/unit/error_code.hpp"
 
 namespace skein {
 namespace {

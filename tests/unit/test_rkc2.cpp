@@ -1,8 +1,8 @@
 #include <skein/core/error.hpp>
 
-#include <gtest/gtest.h>
-
 #include "tests/unit/known_solutions.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

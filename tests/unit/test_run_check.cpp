@@ -1,19 +1,20 @@
 // What `verify` finds, and what a run goes on from.
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-#include <fstream>
-#include <skein/config/scene_file.hpp>
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/run_check.hpp>
 #include <skein/io/trajectory_end.hpp>
-#include <string>
+#include <skein/scene/scene_file.hpp>
 
 #include "tests/unit/error_code.hpp"
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/synthetic_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
 
 namespace skein {
 namespace {

@@ -1,15 +1,16 @@
 // Asking a run to stop: what is seen, and when a step may not be finished any more.
 
+#include <skein/io/atomic_file.hpp>
+
+#include "runs/run_control.hpp"
+#include "tests/unit/scratch_folder.hpp"
+
 #include <gtest/gtest.h>
 
-#include <app/run_control.hpp>
 #include <chrono>
 #include <csignal>
 #include <limits>
-#include <skein/io/atomic_file.hpp>
 #include <thread>
-
-#include "tests/unit/scratch_folder.hpp"
 
 namespace skein {
 namespace {

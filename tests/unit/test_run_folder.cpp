@@ -9,12 +9,12 @@
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/synthetic_run.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
-
-#include <gtest/gtest.h>
 
 namespace skein {
 namespace {

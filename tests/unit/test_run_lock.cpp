@@ -1,16 +1,16 @@
-#include <gtest/gtest.h>
-
-#include <csignal>
-#include <optional>
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/run_lock.hpp>
-#include <string>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "tests/unit/error_code.hpp"
 #include "tests/unit/scratch_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <optional>
+#include <string>
 
 namespace skein {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "tests/unit/scratch_folder.hpp"
 
+#include <gtest/gtest.h>
+
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 namespace skein {
 namespace {

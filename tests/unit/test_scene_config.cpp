@@ -1,8 +1,9 @@
+#include <skein/scene/nearest_name.hpp>
+#include <skein/scene/scene_file.hpp>
+#include <skein/scene/scene_reference.hpp>
+
 #include <gtest/gtest.h>
 
-#include <skein/config/nearest_name.hpp>
-#include <skein/config/scene_file.hpp>
-#include <skein/config/scene_reference.hpp>
 #include <string>
 #include <vector>
 

@@ -1,10 +1,11 @@
 // A valid scene, damaged in many ways: no damage may pass unseen, crash the reader, or be reported without its place.
 
+#include <skein/scene/scene_file.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
-#include <skein/config/scene_file.hpp>
 #include <string>
 #include <vector>
 

@@ -1,13 +1,14 @@
+#include <skein/physics/section_repulsion.hpp>
+
+#include "tests/reference/force_balance.hpp"
+#include "tests/reference/point_cloud.hpp"
+#include "tests/reference/regularized_stokeslet_reference.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <skein/model/section_repulsion.hpp>
-
-#include "tests/reference/force_balance.hpp"
-#include "tests/reference/point_cloud.hpp"
-#include "tests/reference/regularized_stokeslet_reference.hpp"
 
 namespace skein {
 namespace {

@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "kernels/regularized_stokeslet.hpp"
 #include "kernels/simd_transpose.hpp"
 #include "tests/reference/point_cloud.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>

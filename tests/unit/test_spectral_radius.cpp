@@ -1,8 +1,8 @@
-#include <skein/time/spectral_radius.hpp>
-
-#include <gtest/gtest.h>
+#include <skein/solvers/spectral_radius.hpp>
 
 #include "tests/unit/pointwise_right_hand_side.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 

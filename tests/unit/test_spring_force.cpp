@@ -1,11 +1,12 @@
+#include <skein/core/error.hpp>
+#include <skein/physics/spring_forces.hpp>
+
+#include "tests/reference/force_balance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
-#include <skein/core/error.hpp>
-#include <skein/model/spring_forces.hpp>
-
-#include "tests/reference/force_balance.hpp"
 
 namespace skein {
 namespace {

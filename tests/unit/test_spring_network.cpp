@@ -1,9 +1,10 @@
+#include <skein/core/error.hpp>
+#include <skein/fibers/spring_network.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
-#include <skein/core/error.hpp>
-#include <skein/scene/spring_network.hpp>
 
 namespace skein {
 namespace {

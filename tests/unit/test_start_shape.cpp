@@ -1,10 +1,11 @@
+#include <skein/fibers/calibration.hpp>
+#include <skein/fibers/spring_network.hpp>
+#include <skein/fibers/start_shape.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-#include <skein/scene/calibration.hpp>
-#include <skein/scene/spring_network.hpp>
-#include <skein/scene/start_shape.hpp>
 
 namespace skein {
 namespace {

@@ -1,4 +1,4 @@
-#include <skein/time/step_control.hpp>
+#include <skein/solvers/step_control.hpp>
 
 #include <gtest/gtest.h>
 

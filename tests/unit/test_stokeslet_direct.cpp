@@ -1,8 +1,8 @@
 #include <skein/core/error.hpp>
 
-#include <gtest/gtest.h>
-
 #include "tests/unit/stokeslet_case.hpp"
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

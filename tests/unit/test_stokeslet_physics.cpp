@@ -1,7 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "tests/reference/gauss_rule.hpp"
 #include "tests/unit/stokeslet_case.hpp"
+
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>

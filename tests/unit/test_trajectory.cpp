@@ -8,13 +8,13 @@
 #include "tests/unit/scratch_folder.hpp"
 #include "tests/unit/synthetic_run.hpp"
 
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
 #include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
-
-#include <gtest/gtest.h>
-#include <hdf5.h>
 
 namespace skein {
 namespace {

@@ -1,6 +1,6 @@
-#include <skein/core/runtime.hpp>
+#include <skein/arrays/combination.hpp>
+#include <skein/arrays/runtime.hpp>
 
-#include "kernels/combination.hpp"
 #include "tests/unit/stokeslet_case.hpp"
 
 #include <cstdio>

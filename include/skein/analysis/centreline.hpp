@@ -1,7 +1,7 @@
 #pragma once
 
-#include <skein/core/types.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/arrays/types.hpp>
+#include <skein/fibers/fiber.hpp>
 
 #include <span>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <skein/analysis/hook.hpp>
 #include <skein/analysis/orientation.hpp>
 #include <skein/analysis/regime.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/fibers/fiber.hpp>
 
 #include <optional>
 #include <span>

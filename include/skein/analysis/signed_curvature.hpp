@@ -1,7 +1,7 @@
 #pragma once
 
 #include <skein/core/vec3.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/fibers/fiber.hpp>
 
 #include <span>
 #include <vector>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <skein/config/scene_config.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/trajectory.hpp>
 #include <skein/io/trajectory_end.hpp>
+#include <skein/scene/scene_config.hpp>
 
 #include <cstdint>
 #include <memory>

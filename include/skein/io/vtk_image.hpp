@@ -1,9 +1,10 @@
 #pragma once
 
+#include <skein/core/vec3.hpp>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <skein/core/vec3.hpp>
 #include <string>
 #include <vector>
 

@@ -1,8 +1,8 @@
 // A straight fiber that falls under equal forces on its nodes: faster along itself than across.
 
-#include <skein/core/runtime.hpp>
-#include <skein/hydro/direct_mobility.hpp>
-#include <skein/scene/fiber.hpp>
+#include <skein/arrays/runtime.hpp>
+#include <skein/fibers/fiber.hpp>
+#include <skein/physics/direct_mobility.hpp>
 
 #include <cstdio>
 

@@ -1,4 +1,4 @@
-#include <skein/core/types.hpp>
-#include <skein/time/integrator.hpp>  // forbidden: data has not come there yet
+#include <skein/arrays/types.hpp>
+#include <skein/solvers/integrator.hpp>  // forbidden: data has not come there yet
 
 #include <hdf5.h>  // forbidden: only io writes files

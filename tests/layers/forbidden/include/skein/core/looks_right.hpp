@@ -1,1 +1,1 @@
-#include "kernels/simd.hpp"  // forbidden: public headers never include device code
+#include <skein/core/simd.hpp>  // forbidden: public headers never include device code

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+
+#include <cmath>
+
+namespace skein {
+
+/// One term of a linear combination of arrays [n, 3].
+template <class Space>
+struct Term {
+  double factor = 0.0;
+  ConstVectorView<Space> vectors;
+};
+
+/// result = sum of terms, added in the order given. `result` may be one of the terms.
+template <class Space>
+void combine(const Space& space, const VectorView<Space>& result, const Term<Space>& a, const Term<Space>& b);
+template <class Space>
+void combine(const Space& space, const VectorView<Space>& result, const Term<Space>& a, const Term<Space>& b,
+             const Term<Space>& c, const Term<Space>& d);
+template <class Space>
+void combine(const Space& space, const VectorView<Space>& result, const Term<Space>& a, const Term<Space>& b,
+             const Term<Space>& c, const Term<Space>& d, const Term<Space>& e);
+
+/// a . b over all components; the order of the sum does not depend on threads. Waits for the device.
+template <class Space>
+double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b);
+
+/// Over nodes, of the vectors' lengths; the order of the sum is that of dot_product.
+template <class Space>
+double root_mean_square(const Space& space, const ConstVectorView<Space>& vectors) {
+  return std::sqrt(dot_product<Space>(space, vectors, vectors) / static_cast<double>(vectors.extent(0)));
+}
+
+}  // namespace skein

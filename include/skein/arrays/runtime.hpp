@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace skein {
+
+/// Kokkos for the lifetime of the object. Created first in main and in the tests' main; nothing that holds device
+/// memory may outlive it.
+class Runtime {
+ public:
+  /// @param threads  host threads; 0 leaves the choice to OMP_NUM_THREADS or the machine.
+  explicit Runtime(int threads = 0);
+  ~Runtime();
+  Runtime(const Runtime&) = delete;
+  Runtime& operator=(const Runtime&) = delete;
+};
+
+/// One line: backend, device and threads, as a run's first lines print it.
+std::string describe_backend();
+
+/// Several lines of "key: value": version, commit, compiler, Kokkos version and backends.
+std::string describe_build();
+
+}  // namespace skein

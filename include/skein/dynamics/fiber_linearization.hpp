@@ -1,0 +1,54 @@
+#pragma once
+
+#include <skein/fibers/fiber.hpp>
+#include <skein/fibers/spring_network.hpp>
+#include <skein/solvers/linearization.hpp>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace skein {
+
+class BlockBand;
+
+/// A = M(x) dF/dx of fibers. Its preconditioner keeps the mobility between sections that are near each other on a
+/// fiber, tapered, as a banded matrix factorized on the host; with every section's frame it turns, so that it serves
+/// while the fiber rotates and bends on.
+class FiberLinearization final : public Linearization {
+ public:
+  /// Overwrites result with M(position) dF/dx(position) displacement.
+  using Product =
+      std::function<void(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result)>;
+
+  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product);
+  ~FiberLinearization() override;
+
+  void set_position(const ConstVectors& position) override;
+  void multiply(const ConstVectors& v, const Vectors& result) override;
+  bool factorize(const ConstVectors& position, double scale) override;
+  double factorization_cost() const override;
+  double preconditioning_cost() const override;
+  void precondition(const ConstVectors& v, const Vectors& result) override;
+  std::string describe() const override;
+
+ private:
+  /// Rows: along the fiber, towards node 0, and across both.
+  struct Frame {
+    Vec3 axis[3];
+  };
+  std::vector<Frame> make_frames(const std::vector<Vec3>& position) const;
+  void update_turns();
+  double evaluations_for(double operations) const;
+
+  std::vector<Fiber> fibers_;
+  std::vector<SpringNetwork> networks_;
+  double viscosity_;
+  Product product_;
+  Vectors position_;
+  std::vector<Frame> frames_, frames_at_factorization_;  ///< [n_sections]
+  std::vector<Frame> turns_;                             ///< rows of the rotations since the factorization
+  std::vector<std::unique_ptr<BlockBand>> bands_;        ///< [n_fibers]
+};
+
+}  // namespace skein

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <skein/arrays/sources.hpp>
+#include <skein/arrays/types.hpp>
+#include <skein/fmm/even_sample.hpp>
+#include <skein/fmm/fmm_plan.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace skein {
+
+/// What the last evaluation met: for the cost card, the benchmarks and the tests.
+struct FmmStatistics {
+  FmmPlan plan;
+  int n_boxes = 0;
+  int n_levels = 0;
+  int n_leaves = 0;                  ///< with targets
+  double smallest_half_width = 0.0;  ///< of a leaf, length
+  FmmWork work;
+  bool used_direct_sum = false;  ///< the lists showed that it costs less, or the tolerance is out of reach
+  double memory_bytes = 0.0;     ///< of the tree, the nodes' copies, coefficients and operators
+  /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves.
+  double operators_seconds = 0.0, tree_seconds = 0.0, sort_seconds = 0.0, far_seconds = 0.0, leaf_seconds = 0.0;
+};
+
+/// One way of an evaluation through the machine. FmmMobility asks it for a sum, and adds, checks and reports.
+class FmmSum {
+ public:
+  virtual ~FmmSum() = default;
+
+  /// Takes the arrays of the next sum; false where a position is not finite.
+  virtual bool take(const Sources& sources, const ConstVectors& target) = 0;
+  virtual double largest_blob() const = 0;
+  /// The sum after a plan; false where a direct sum is cheaper and may be used.
+  virtual bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) = 0;
+  /// velocity += the sum
+  virtual void add_to(const Vectors& velocity) const = 0;
+  /// The sum at some targets.
+  virtual std::vector<Vec3> sample(const EvenSample& sample) const = 0;
+
+  FmmStatistics statistics;
+};
+
+/// @param path  automatic: on the host where kernels run there, else on the device
+std::unique_ptr<FmmSum> make_fmm_sum(FmmPath path);
+
+}  // namespace skein

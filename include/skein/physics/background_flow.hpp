@@ -1,0 +1,39 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+#include <skein/scene/scene_config.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// The flow far from all fibers.
+class BackgroundFlow {
+ public:
+  virtual ~BackgroundFlow() = default;
+
+  /// velocity += the flow at each position.
+  /// @param position, velocity  [n, 3], length and length / time. Returns before a device has finished.
+  /// @throws Error(internal) if the extents differ
+  virtual void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const = 0;
+
+  /// Largest rate of deformation sqrt(2 E : E), E the symmetric part of the velocity gradient: the shear rate of a
+  /// shear flow, twice the stretching rate of a planar extension, 0 where the fluid turns as a rigid body. A sum of
+  /// flows counts as if all were largest at one place and time. 1 / time
+  virtual double typical_rate() const = 0;
+
+  /// Shortest time in which the flow changes, or changes what it carries; infinite for a fluid at rest.
+  virtual double time_scale() const = 0;
+
+  /// One line for the first lines of a run.
+  virtual std::string describe() const = 0;
+};
+
+/// The sum of a scene's flows. A new kind is a word in src/config/scene_keys.cpp and its term in
+/// src/model/scene_flow.cpp.
+/// @throws Error(scene_error) for a kind that is not known
+std::unique_ptr<BackgroundFlow> make_background_flow(const std::vector<FlowConfig>& flows);
+
+}  // namespace skein

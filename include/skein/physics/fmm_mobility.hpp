@@ -1,0 +1,61 @@
+#pragma once
+
+#include <skein/fmm/fmm_plan.hpp>
+#include <skein/fmm/fmm_sum.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/mobility.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
+///
+/// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
+/// the approximations). The tree is rebuilt in every call, operators are kept. FmmPath says where it runs. A node whose
+/// position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J. Comput.
+/// Phys. 196, 591 (2004).
+class FmmMobility final : public Mobility {
+ public:
+  /// @param viscosity  > 0, force * time / length^2
+  /// @throws Error(scene_error) where the options ask for what cannot be delivered.
+  FmmMobility(double viscosity, const FmmOptions& options);
+  ~FmmMobility() override;
+
+  /// @throws Error(scene_error) where a tolerance is out of reach for these blobs; Error(numerical) where a check finds
+  /// an error above the tolerance and the options say to stop.
+  void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  double pairs() const override { return pairs_; }
+  std::string describe() const override;
+  void visit_memory(MemoryVisitor& visitor) override;
+  ErrorRecord error_record() const override { return record_; }
+  std::vector<std::string> take_messages() override;
+
+  /// Relative error (2-norm) of one evaluation against direct sums at n_sample targets, evenly spread over the indices.
+  double measure_error(const Sources& sources, const ConstVectors& target, int n_sample);
+
+  const FmmStatistics& statistics() const;
+
+ private:
+  /// True where direct sums are the rule for so many pairs, before a tree is built.
+  bool sums_directly(double n_pairs, FmmTargets targets) const;
+  /// Computes the sum of the arrays that were taken; false where a direct sum is cheaper.
+  bool evaluate(FmmTargets targets);
+  /// False where the sum, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
+  bool passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
+
+  double viscosity_;
+  FmmOptions options_;
+  DirectMobility direct_;
+  std::unique_ptr<FmmSum> sum_;
+  double pairs_ = 0.0;
+  int raised_order_ = 0;            ///< that a check found necessary; 0: as planned
+  std::int64_t n_evaluations_ = 0;  ///< decides which are checked
+  ErrorRecord record_;
+  std::vector<std::string> messages_;
+};
+
+}  // namespace skein

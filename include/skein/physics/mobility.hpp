@@ -1,0 +1,56 @@
+#pragma once
+
+#include <skein/arrays/memory_visitor.hpp>
+#include <skein/arrays/sources.hpp>
+#include <skein/arrays/types.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// What a method that approximates knows of its own error, since the beginning of the run.
+struct ErrorRecord {
+  int order = 0;  ///< of the last evaluation's expansions; 0: it was a direct sum
+  /// Of the last check against direct sums and of the worst, relative (2-norm); not a number before the first.
+  double last = std::numeric_limits<double>::quiet_NaN(), largest = std::numeric_limits<double>::quiet_NaN();
+  std::int64_t n_checks = 0;
+  std::int64_t n_misses = 0;       ///< checks that found more than the tolerance
+  std::int64_t n_approximate = 0;  ///< evaluations that were no direct sums
+};
+
+/// Fluid response to forces: velocity += M(target, source) force. Free space, no inertia; self terms are included.
+/// There is no set-up protocol: positions are arguments of the call. Implementations agree within their stated error;
+/// DirectMobility is the reference, and tests/property holds every implementation to the same properties.
+class Mobility {
+ public:
+  virtual ~Mobility() = default;
+
+  /// @param target    [n_targets, 3], length. The same array as sources.position where the sources are the targets.
+  /// @param velocity  [n_targets, 3], length / time. Accumulated into, never overwritten.
+  ///
+  /// Coincident nodes are allowed. Returns before a device has finished; fence or deep_copy before reading.
+  /// The result does not depend on the number of threads.
+  /// @throws Error(internal) if extents differ. Non-finite input is not searched for here: the time step checks.
+  virtual void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) = 0;
+
+  /// Source-target pairs a direct sum would have needed for the calls so far: the unit of the cost card.
+  virtual double pairs() const = 0;
+
+  /// One line for the first lines of a run: method, precision, expected error.
+  virtual std::string describe() const = 0;
+
+  /// All that later calls depend on besides their arguments, and the error record: what a restart needs. After an
+  /// exception the caller brings back what was there before.
+  virtual void visit_memory(MemoryVisitor& visitor) = 0;
+
+  /// Of a method without an error of its own, empty.
+  virtual ErrorRecord error_record() const { return {}; }
+
+  /// What the user should be told of the calls since this was last asked, one text each.
+  virtual std::vector<std::string> take_messages() { return {}; }
+};
+
+}  // namespace skein

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <skein/fmm/fmm_plan.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/scene/scene_config.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// The method behind a scene's velocities, and why.
+struct MobilityChoice {
+  bool is_direct = true;
+  Precision precision = Precision::in_double;  ///< of direct sums
+  FmmOptions fmm;
+  std::string reason;  ///< of method = "auto"; else empty
+};
+
+/// The same on every machine, so that a run can be repeated.
+MobilityChoice choose_mobility(const SceneConfig& scene);
+
+/// One line: method, order, leaves, expected error, and why.
+std::string describe_choice(const MobilityChoice& choice, const SceneConfig& scene);
+
+/// What [hydrodynamics] asks for and no method delivers for these fibers. For read_scene.
+std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene);
+
+}  // namespace skein

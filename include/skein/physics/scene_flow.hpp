@@ -1,0 +1,27 @@
+#pragma once
+
+#include <skein/physics/background_flow.hpp>
+
+#include <vector>
+
+namespace skein {
+
+/// The sum of the flows that a scene names, each with its own course in time.
+class SceneFlow final : public BackgroundFlow {
+ public:
+  /// @throws Error(scene_error) for a kind that is not known
+  explicit SceneFlow(const std::vector<FlowConfig>& flows);
+
+  void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const override;
+  double typical_rate() const override;
+  double time_scale() const override;
+  std::string describe() const override;
+
+ private:
+  std::vector<FlowConfig> flows_;  ///< without those at rest
+};
+
+/// r(t) of a flow: its rate, its oscillation, and its rise and fall, which are smooth over `ramp`. 1 / time
+double compute_rate(const FlowConfig& flow, double time);
+
+}  // namespace skein

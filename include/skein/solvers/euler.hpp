@@ -1,0 +1,33 @@
+#pragma once
+
+#include <skein/solvers/integrator.hpp>
+
+namespace skein {
+
+/// Forward Euler with a fixed step: the paper's method, and the reference for cost. Stable while the step times the
+/// spectral radius is below 2.
+class Euler final : public Integrator {
+ public:
+  /// @param dt  > 0, time
+  Euler(RightHandSide& rhs, double dt, double length_scale, int n_nodes);
+
+  StepReport advance(State& state, double end) override;
+  void interpolate(double time, const Vectors& position) const override;
+  void visit_memory(MemoryVisitor& visitor) override;
+  std::string describe() const override;
+
+ private:
+  std::string explain_instability(double radius) const;
+
+  RightHandSide& rhs_;
+  double dt_;
+  double length_scale_;
+  double spectral_radius_ = 0.0;  ///< at the start, 1 / time; 0 before the first step
+  double step_start_ = 0.0;
+  double step_end_ = 0.0;
+  Vectors start_;  ///< positions at step_start_
+  Vectors end_;    ///< positions at step_end_
+  Vectors velocity_;
+};
+
+}  // namespace skein

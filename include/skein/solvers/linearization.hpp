@@ -1,0 +1,37 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+
+#include <string>
+
+namespace skein {
+
+/// The stiff part A of d velocity / d position, for linearly implicit integrators: what is slow may be missing from it.
+/// One call at a time.
+class Linearization {
+ public:
+  virtual ~Linearization() = default;
+
+  /// From now on, A is that of these positions, [n_nodes, 3].
+  virtual void set_position(const ConstVectors& position) = 0;
+
+  /// Overwrites result with A v. Counts as one evaluation.
+  virtual void multiply(const ConstVectors& v, const Vectors& result) = 0;
+
+  /// Makes an approximate (I - scale A)^-1 at these positions, from them and from nothing else; it goes on to serve at
+  /// other positions. @param scale  >= 0, time. @returns false where there is none
+  virtual bool factorize(const ConstVectors& position, double scale) = 0;
+
+  /// What that costs, and what one use of the inverse does, in evaluations. Properties of the size of things, not of
+  /// clocks, so that what is decided by them is decided alike in every run.
+  virtual double factorization_cost() const = 0;
+  virtual double preconditioning_cost() const = 0;
+
+  /// Overwrites result with that approximate inverse times v. result may be v.
+  virtual void precondition(const ConstVectors& v, const Vectors& result) = 0;
+
+  /// One line: what the preconditioner is.
+  virtual std::string describe() const = 0;
+};
+
+}  // namespace skein

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+#include <skein/solvers/linearization.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace skein {
+
+/// dx/dt = velocity(t, x): all that an integrator sees of fibers and fluid.
+class RightHandSide {
+ public:
+  virtual ~RightHandSide() = default;
+
+  /// Overwrites velocity, [n_nodes, 3], length / time. Counts as one evaluation.
+  virtual void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) = 0;
+
+  /// What is wrong with these positions, naming the node; empty where they are fit to go on from. One pass over the
+  /// nodes on the device.
+  virtual std::string find_fault(const ConstVectors& position) const = 0;
+
+  virtual std::int64_t evaluations() const = 0;
+
+  /// Its stiff part; null where it has none to offer. Belongs to this object.
+  virtual Linearization* linearization() { return nullptr; }
+};
+
+}  // namespace skein

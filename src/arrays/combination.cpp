@@ -1,0 +1,77 @@
+#include <skein/arrays/combination.hpp>
+#include <skein/core/error.hpp>
+
+namespace skein {
+namespace {
+
+constexpr int chunk_nodes = 256;  // fixes the order of a sum
+
+template <class Space, int n_terms>
+struct Combination {
+  double factor[n_terms];
+  ConstVectorView<Space> vectors[n_terms];
+  VectorView<Space> result;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    for (int c = 0; c < 3; ++c) {
+      double sum = factor[0] * vectors[0](i, c);
+      for (int term = 1; term < n_terms; ++term) sum += factor[term] * vectors[term](i, c);
+      result(i, c) = sum;
+    }
+  }
+};
+
+template <class Space, class... Terms>
+void run(const Space& space, const VectorView<Space>& result, const Terms&... terms) {
+  SKEIN_REQUIRE(((terms.vectors.extent(0) == result.extent(0)) && ...), "arrays of a combination differ in length");
+  Kokkos::parallel_for("skein::combine", Kokkos::RangePolicy<Space>(space, 0, result.extent_int(0)),
+                       Combination<Space, sizeof...(Terms)>{{terms.factor...}, {terms.vectors...}, result});
+}
+
+}  // namespace
+
+template <class Space>
+void combine(const Space& space, const VectorView<Space>& result, const Term<Space>& a, const Term<Space>& b) {
+  run<Space>(space, result, a, b);
+}
+template <class Space>
+void combine(const Space& space, const VectorView<Space>& result, const Term<Space>& a, const Term<Space>& b,
+             const Term<Space>& c, const Term<Space>& d) {
+  run<Space>(space, result, a, b, c, d);
+}
+template <class Space>
+void combine(const Space& space, const VectorView<Space>& result, const Term<Space>& a, const Term<Space>& b,
+             const Term<Space>& c, const Term<Space>& d, const Term<Space>& e) {
+  run<Space>(space, result, a, b, c, d, e);
+}
+
+template <class Space>
+double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
+  SKEIN_REQUIRE(a.extent(0) == b.extent(0), "arrays of a dot product differ in length");
+  const int n_nodes = a.extent_int(0);
+  const int n_chunks = math::ceil_div(n_nodes, chunk_nodes);
+  const ScalarView<Space> chunk_sum(Kokkos::ViewAllocateWithoutInitializing("skein::dot_product"), n_chunks);
+  Kokkos::parallel_for(
+      "skein::dot_product", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+        const int last = math::smaller(n_nodes, (chunk + 1) * chunk_nodes);
+        double sum = 0.0;
+        for (int i = chunk * chunk_nodes; i < last; ++i)
+          sum += a(i, 0) * b(i, 0) + a(i, 1) * b(i, 1) + a(i, 2) * b(i, 2);
+        chunk_sum(chunk) = sum;
+      });
+  const auto on_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), chunk_sum);
+  double total = 0.0;
+  for (int chunk = 0; chunk < n_chunks; ++chunk) total += on_host(chunk);
+  return total;
+}
+
+#define SKEIN_INSTANTIATE(S)                                                                               \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&, \
+                           const Term<S>&);                                                                \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&, \
+                           const Term<S>&, const Term<S>&);                                                \
+  template double dot_product<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&);
+SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
+
+}  // namespace skein

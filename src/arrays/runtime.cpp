@@ -1,0 +1,47 @@
+#include <skein/arrays/runtime.hpp>
+#include <skein/arrays/types.hpp>
+#include <skein/core/version.hpp>
+
+#include <fmt/format.h>
+
+namespace skein {
+namespace {
+
+std::string compiler() {
+#if defined(__CUDACC__)
+  return fmt::format("nvcc {}.{}", __CUDACC_VER_MAJOR__, __CUDACC_VER_MINOR__);
+#elif defined(__clang__)
+  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#elif defined(__GNUC__)
+  return fmt::format("g++ {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#else
+  return "unknown";
+#endif
+}
+
+std::string host_threads() {
+#if defined(KOKKOS_ENABLE_OPENMP)
+  return fmt::format("{} with {} threads", HostSpace::name(), HostSpace().concurrency());
+#else
+  return HostSpace::name();
+#endif
+}
+
+}  // namespace
+
+Runtime::Runtime(const int threads) { initialize_kokkos(threads); }
+Runtime::~Runtime() { Kokkos::finalize(); }
+
+std::string describe_backend() {
+  if constexpr (on_host<ExecSpace>) return host_threads();
+  return fmt::format("{}, host {}", ExecSpace::name(), host_threads());
+}
+
+std::string describe_build() {
+  return fmt::format(
+      "skein: {}\ncommit: {}\nbuild: {}\ncompiler: {}\nKokkos: {}.{}.{}\nbackend: {}\nhost backend: {}\n", version(),
+      commit(), build_type(), compiler(), KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100, KOKKOS_VERSION % 100,
+      ExecSpace::name(), HostSpace::name());
+}
+
+}  // namespace skein

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/verbs.hpp"
+
+#include <vector>
+
+namespace skein {
+
+/// Reads the command line, does what it says and turns whatever goes wrong into a message on stderr.
+/// @returns the exit code, one of ExitCode or that of a program that was called.
+int run_command_line(int n_arguments, char** arguments, const std::vector<AddVerb>& verbs);
+
+}  // namespace skein

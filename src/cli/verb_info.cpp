@@ -1,0 +1,63 @@
+#include <skein/core/json_text.hpp>
+#include <skein/io/run_folder.hpp>
+#include <skein/io/run_summary.hpp>
+#include <skein/physics/mobility_choice.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include "cli/verbs.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace skein {
+namespace {
+
+struct InfoOptions {
+  std::string folder;
+  bool json = false;
+};
+
+void print_lines(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
+  fmt::print("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nframes: {}\nsteps: {}\nsegments: {}\n", summary.title,
+             summary.status, scene, mobility, summary.frames, summary.steps, summary.segments);
+  if (std::isfinite(summary.last_time)) fmt::print("last time: {}\n", summary.last_time);
+}
+
+void print_json(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
+  fmt::print(
+      "{{\n  \"title\": {},\n  \"status\": {},\n  \"scene\": {},\n  \"mobility\": {},\n  \"frames\": {},\n  \"steps\": "
+      "{},\n"
+      "  \"segments\": {},\n  \"last_time\": {}\n}}\n",
+      quote_json(summary.title), quote_json(summary.status), quote_json(scene), quote_json(mobility), summary.frames,
+      summary.steps, summary.segments,
+      std::isfinite(summary.last_time) ? fmt::format("{}", summary.last_time) : "null");
+}
+
+int print_info(const InfoOptions& options) {
+  const RunSummary summary = read_run_summary(options.folder);
+  const std::string scene = RunFolder::open(options.folder).scene().string();
+  const SceneConfig config = read_scene(scene, {}).config;
+  const std::string mobility = describe_choice(choose_mobility(config), config);
+  options.json ? print_json(scene, mobility, summary) : print_lines(scene, mobility, summary);
+  return 0;
+}
+
+}  // namespace
+
+void add_info_verb(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("info", "Say what a run folder holds");
+  const auto options = std::make_shared<InfoOptions>();
+  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
+  verb->add_flag("--json", options->json, "As JSON");
+  verb->footer(
+      "Examples:\n"
+      "  skein info tumbling\n"
+      "  skein info tumbling --json");
+  verb->callback([options, &action] { action = [options] { return print_info(*options); }; });
+}
+
+}  // namespace skein

@@ -1,0 +1,90 @@
+#include <skein/arrays/runtime.hpp>
+#include <skein/core/error.hpp>
+#include <skein/io/run_summary.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include "cli/plot_scripts.hpp"
+#include "cli/verbs.hpp"
+#include "runs/run_analysis.hpp"
+#include "runs/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace skein {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlotOptions {
+  std::string folder;
+  std::vector<double> times;
+  std::string output, format = "png";
+  bool movie = false;
+};
+
+// Several pictures are of what `skein analyze` measures. Energies and powers take an evaluation of the fluid for each
+// frame, which large runs are asked for only by the verb itself.
+void refresh_analysis(const fs::path& path) {
+  std::error_code ignored;
+  const RunFolder folder = RunFolder::open(path);
+  const fs::path tables = folder.analysis() / "diagnostics.h5";
+  if (fs::exists(tables, ignored) &&
+      fs::last_write_time(tables, ignored) >= fs::last_write_time(folder.index(), ignored))
+    return;
+  constexpr double most_pairs = 1e11;
+  const auto n_nodes = static_cast<double>(count_nodes(make_fibers(read_scene(folder.scene(), {}).config.fibers)));
+  const double pairs = n_nodes * n_nodes * static_cast<double>(read_run_summary(path).frames);
+  const Runtime runtime;
+  write_analysis(analyze_run(folder, pairs <= most_pairs), folder.analysis());
+}
+
+int plot_run(const PlotOptions& options) {
+  std::error_code error;
+  if (!fs::is_directory(options.folder, error)) {
+    throw Error(ExitCode::missing_input, fmt::format("the run folder {} is not there", options.folder));
+  }
+  try {
+    refresh_analysis(options.folder);
+  } catch (const Error& cause) {  // other pictures may be possible still
+    print_warning(fmt::format("the run is not analyzed: {}", cause.what()));
+  }
+  // Made absolute, so that a folder whose name begins with a dash is no option.
+  std::vector<std::string> arguments{fs::absolute(options.folder).string()};
+  if (!options.times.empty()) arguments.push_back(fmt::format("--times={}", fmt::join(options.times, ",")));
+  if (!options.output.empty()) arguments.push_back("--output=" + options.output);
+  arguments.push_back("--format=" + options.format);
+  if (options.movie) arguments.push_back("--movie");
+  return run_plot_script("plot_run.py", arguments);
+}
+
+}  // namespace
+
+void add_plot_verb(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("plot", "Draw a run");
+  const auto options = std::make_shared<PlotOptions>();
+  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
+  verb->add_option("--times", options->times, "Draw the frames nearest to these times")
+      ->type_name("T1,T2,...")
+      ->delimiter(',');
+  verb->add_option("-o,--output", options->output, "Folder for the pictures")->type_name("FOLDER");
+  verb->add_option("--format", options->format, "Of the pictures; png without")
+      ->type_name("png|pdf|svg")
+      ->check(CLI::IsMember({"png", "pdf", "svg"}));
+  verb->add_flag("--movie", options->movie, "Also movie.mp4, for which ffmpeg must be installed");
+  verb->footer(
+      "Examples:\n"
+      "  skein plot tumbling\n"
+      "  skein plot tumbling --times 4.95,5.44,10.9 -o pictures --format pdf\n"
+      "  skein plot tumbling --movie\n"
+      "The run is analyzed first ('skein analyze') if it has changed since the last time.");
+  verb->callback([options, &action] { action = [options] { return plot_run(*options); }; });
+}
+
+}  // namespace skein

@@ -1,0 +1,93 @@
+#include <skein/arrays/runtime.hpp>
+#include <skein/core/duration.hpp>
+#include <skein/core/version.hpp>
+#include <skein/io/checkpoint_folder.hpp>
+#include <skein/io/run_lock.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include "cli/common_options.hpp"
+#include "cli/verbs.hpp"
+#include "runs/run_control.hpp"
+#include "runs/simulation.hpp"
+#include "runs/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+
+namespace skein {
+namespace {
+
+struct ResumeOptions {
+  std::string folder;
+  int threads = 0;
+  double max_walltime = std::numeric_limits<double>::infinity();
+  bool quiet = false;
+};
+
+// What has to be said before going on; empty for a checkpoint of this very program.
+std::string compare_programs(const Checkpoint& checkpoint) {
+  std::string text;
+  if (checkpoint.text("program.commit") != commit() || checkpoint.text("program.version") != version())
+    text +=
+        fmt::format("the run was made by skein {} ({}), this is {} ({}): what follows may differ in the last digits",
+                    checkpoint.text("program.version"), checkpoint.text("program.commit"), version(), commit());
+  return text;
+}
+
+std::string describe_point(const ResumePoint& point, const SceneConfig& scene) {
+  if (!point.checkpoint) return "resume: there is no checkpoint yet; the run starts again at t = 0";
+  const double time = point.checkpoint->number("state.time");
+  return fmt::format("resume: from '{}', t = {:.6g}, step {}; {:.1f} % of the simulated time is done, {:.6g} is left",
+                     point.path.string(), time, point.checkpoint->integer("state.step"),
+                     scene.time.end > 0.0 ? 100.0 * time / scene.time.end : 100.0, scene.time.end - time);
+}
+
+int resume_run(const ResumeOptions& options) {
+  const RunFolder folder = RunFolder::open_begun(options.folder);
+  const RunLock lock(folder);
+  const SceneConfig scene = read_scene(folder.scene(), {}).config;
+  const ResumePoint point = find_resume_point(folder);
+  std::string what_happened;
+  for (const std::string& rejected : point.rejected) what_happened += rejected + "; it was renamed to *.damaged\n";
+  if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) {
+    if (!what_happened.empty()) print_warning(what_happened);
+    fmt::print(stderr, "'{}' is done: t = {:g}, step {}; nothing is left to do.\n", options.folder, scene.time.end,
+               point.checkpoint->integer("state.step"));
+    return 0;
+  }
+  if (point.checkpoint) what_happened += compare_programs(*point.checkpoint);
+  if (!what_happened.empty()) print_warning(what_happened);
+
+  const Runtime runtime(options.threads);
+  RunControl control(options.max_walltime);
+  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
+                        ProgressReport::choose_kind(options.quiet), options.quiet);
+  simulation.say(what_happened + describe_point(point, scene));
+  simulation.introduce();
+  return static_cast<int>(simulation.run());
+}
+
+}  // namespace
+
+void add_resume_verb(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("resume", "Go on with a run that was stopped, killed or failed");
+  const auto options = std::make_shared<ResumeOptions>();
+  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
+  add_threads_option(*verb, options->threads);
+  add_walltime_option(*verb, options->max_walltime);
+  verb->add_flag("-q,--quiet", options->quiet, "Errors only");
+  verb->footer(
+      "Examples:\n"
+      "  skein resume tumbling\n"
+      "  skein resume tumbling --max-walltime 8h --threads 2\n"
+      "The run goes on from its newest good checkpoint to its original end, and is equal in every bit to one that was\n"
+      "never interrupted. A damaged checkpoint is named and an older one used.\n"
+      "The exit code is 0 if the end was reached, 75 if the run was stopped again, 65 if no checkpoint is good.");
+  verb->callback([options, &action] { action = [options] { return resume_run(*options); }; });
+}
+
+}  // namespace skein

@@ -1,0 +1,78 @@
+#include <skein/core/json_text.hpp>
+#include <skein/physics/mobility_choice.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include "cli/verbs.hpp"
+#include "runs/placed_scene.hpp"
+#include "runs/scene_summary.hpp"
+#include "runs/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace skein {
+namespace {
+
+struct ValidateOptions {
+  std::string scene;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+
+std::string list_as_json(const std::vector<Problem>& problems) {
+  std::string list;
+  for (const Problem& problem : problems) {
+    list += fmt::format("{}\n    {{\"source\": {}, \"line\": {}, \"column\": {}, \"message\": {}, \"key\": {}}}",
+                        list.empty() ? "" : ",", quote_json(problem.where.source), problem.where.line,
+                        problem.where.column, quote_json(problem.message), quote_json(problem.key_doc));
+  }
+  return list.empty() ? "[]" : "[" + list + "\n  ]";
+}
+
+void print_json(const bool valid, const std::vector<Problem>& problems, const std::vector<Problem>& warnings) {
+  fmt::print("{{\n  \"valid\": {},\n  \"problems\": {},\n  \"warnings\": {}\n}}\n", valid, list_as_json(problems),
+             list_as_json(warnings));
+}
+
+int validate_scene(const ValidateOptions& options) {
+  SceneReading scene;
+  try {
+    scene = read_placed_scene(options.scene, options.overrides);
+  } catch (const SceneError& error) {
+    if (!options.json) throw;
+    print_json(false, error.problems(), {});
+    return static_cast<int>(error.code());
+  }
+  if (options.json) {
+    print_json(true, {}, scene.warnings);
+    return 0;
+  }
+  for (const Problem& warning : scene.warnings) print_warning(warning.describe());
+  fmt::print("{}mobility: {}\n", describe_scene(scene.config),
+             describe_choice(choose_mobility(scene.config), scene.config));
+  return 0;
+}
+
+}  // namespace
+
+void add_validate_verb(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("validate", "Look for mistakes in a scene, and print what follows from it");
+  const auto options = std::make_shared<ValidateOptions>();
+  verb->add_option("scene", options->scene, "Scene file (TOML)")->required()->type_name("SCENE");
+  verb->add_option("--set", options->overrides, "Override a key of the scene; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  verb->add_flag("--json", options->json, "Problems and warnings as JSON on stdout");
+  verb->footer(
+      "Examples:\n"
+      "  skein validate configs/tumbling.toml\n"
+      "  skein validate configs/tumbling.toml --set fiber.sections=113 --json\n"
+      "The exit code is 0 for a valid scene, 78 for a wrong one, 66 if there is none.");
+  verb->callback([options, &action] { action = [options] { return validate_scene(*options); }; });
+}
+
+}  // namespace skein

@@ -1,0 +1,46 @@
+#include <skein/core/error.hpp>
+#include <skein/io/run_check.hpp>
+
+#include "cli/verbs.hpp"
+#include "runs/terminal.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+namespace skein {
+namespace {
+
+int verify_run(const std::string& folder) {
+  const RunCheck check = check_run(folder);
+  for (const std::string& problem : check.problems) print_error(problem);
+  for (const std::string& note : check.notes) fmt::print(stderr, "skein: note: {}\n", note);
+  fmt::print("status: {}\nframes: {}\nsteps: {}\nsegments: {}\ncheckpoints: {}\nlast time: {}\n", check.status,
+             check.frames, check.records, check.segments, check.checkpoints, check.last_time);
+  if (!check.problems.empty()) {
+    fmt::print("verdict: damaged, {} problem{}\n", check.problems.size(), check.problems.size() == 1 ? "" : "s");
+    return static_cast<int>(ExitCode::damaged_data);
+  }
+  fmt::print("certificate: {}\nverdict: whole, no gap, no frame twice, unchanged since it was written\n",
+             check.checksum);
+  return 0;
+}
+
+}  // namespace
+
+void add_verify_verb(CLI::App& app, Action& action) {
+  CLI::App* verb = app.add_subcommand("verify", "Prove that a run is whole, or say what is wrong where");
+  const auto folder = std::make_shared<std::string>();
+  verb->add_option("folder", *folder, "Run folder")->required()->type_name("DIR");
+  verb->footer(
+      "Examples:\n"
+      "  skein verify tumbling\n"
+      "Checked are all checksums of frames, step records and checkpoints, their chain from the scene to the last "
+      "frame,\n"
+      "the frames' times, and that times are sums of the steps. The exit code is 0, or 65 if anything is damaged.");
+  verb->callback([folder, &action] { action = [folder] { return verify_run(*folder); }; });
+}
+
+}  // namespace skein

@@ -1,0 +1,50 @@
+#include <skein/core/json_text.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace skein {
+namespace {
+
+// Length of the UTF-8 sequence at `at`; 0 if there is none. Overlong forms and surrogates count as none.
+std::size_t sequence_length(const std::string& text, const std::size_t at) {
+  const auto byte = [&text](const std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : static_cast<unsigned char>(0);
+  };
+  const unsigned char first = byte(at), second = byte(at + 1);
+  std::size_t length = 0;
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first <= 0xdf) length = 2;
+  if (first >= 0xe0 && first <= 0xef) length = 3;
+  if (first >= 0xf0 && first <= 0xf4) length = 4;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xc0) != 0x80) return 0;
+  }
+  const bool forbidden = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+                         (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
+  return forbidden ? 0 : length;
+}
+
+}  // namespace
+
+std::string quote_json(const std::string& text) {
+  std::string quoted = "\"";
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = sequence_length(text, at);
+    const char c = text[at];
+    if (length == 0) {
+      quoted += "\\ufffd";
+    } else if (c == '"' || c == '\\') {
+      quoted += fmt::format("\\{}", c);
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      quoted += text.substr(at, length);
+    }
+    at += std::max<std::size_t>(length, 1);
+  }
+  return quoted + '"';
+}
+
+}  // namespace skein

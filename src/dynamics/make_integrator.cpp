@@ -1,0 +1,68 @@
+#include <skein/core/error.hpp>
+#include <skein/dynamics/make_integrator.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/solvers/euler.hpp>
+#include <skein/solvers/explicit_runge_kutta.hpp>
+#include <skein/solvers/method_selection.hpp>
+#include <skein/solvers/rkc2.hpp>
+#include <skein/solvers/spectral_radius.hpp>
+#include <skein/solvers/tr_bdf2.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein {
+namespace {
+
+Rkc2Options make_options(const SceneConfig& scene, const double length, const double spacing) {
+  Rkc2Options options;
+  options.tolerance = scene.time.tolerance;
+  options.length_scale = length;
+  options.detail_scale = spacing;
+  const double flow_time = make_background_flow(scene.flows)->time_scale();
+  if (std::isfinite(flow_time)) options.time_scale = flow_time;
+  options.fixed_step = scene.time.step;
+  options.max_step = scene.time.max_step;
+  options.displacement = 1e-5 * spacing;
+  options.seed = scene.seed;
+  return options;
+}
+
+std::unique_ptr<Integrator> make_controlled(const std::string& method, const Rkc2Options& options, RightHandSide& rhs,
+                                            const int n_nodes) {
+  if (method == "rk4") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
+  if (method == "bs3") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
+  if (method == "trbdf2") return std::make_unique<TrBdf2>(rhs, options, n_nodes);
+  SKEIN_REQUIRE(method == "rkc2", "unknown integrator '" + method + "'");
+  return std::make_unique<Rkc2>(rhs, options, n_nodes);
+}
+
+// From the straight fibers of the start, also where a run goes on: the choice is the same then.
+MethodSelection select(const Rkc2Options& options, const std::vector<Fiber>& fibers, RightHandSide& rhs) {
+  const Vectors position = to_device("skein::make_integrator::position", make_surface_nodes(fibers));
+  const Vectors velocity("skein::make_integrator::velocity", position.extent(0));
+  rhs.compute_velocity(0.0, position, velocity);
+  SpectralRadius power_iteration(position.extent_int(0), options.displacement, options.seed);
+  const double radius = power_iteration.estimate(rhs, 0.0, position, velocity, 0.05, 30);
+  const Linearization* linearization = rhs.linearization();
+  return select_method(options, radius, linearization == nullptr ? 0.0 : linearization->factorization_cost(),
+                       linearization == nullptr ? -1.0 : linearization->preconditioning_cost());
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std::vector<Fiber>& fibers,
+                                            RightHandSide& rhs) {
+  const int n_nodes = count_nodes(fibers);
+  const double length = largest_length(fibers);
+  double spacing = fibers.front().spacing();
+  for (const Fiber& fiber : fibers) spacing = std::min(spacing, fiber.spacing());
+  if (scene.time.method == "euler") return std::make_unique<Euler>(rhs, scene.time.step, length, n_nodes);
+  const Rkc2Options options = make_options(scene, length, spacing);
+  if (scene.time.method != "auto") return make_controlled(scene.time.method, options, rhs, n_nodes);
+  const MethodSelection selection = select(options, fibers, rhs);
+  return std::make_unique<SelectedIntegrator>(make_controlled(selection.method, options, rhs, n_nodes),
+                                              selection.reason);
+}
+
+}  // namespace skein

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+
+#include <cstddef>
+#include <string>
+
+// Arrays of the fast multipole method's path through a device: kept between evaluations, filled by counting, scanning
+// and filling.
+
+namespace skein {
+
+template <class View>
+void require_extent(View& view, const std::size_t n, const char* label) {
+  if (view.extent(0) >= n) return;
+  view = View();  // before the new one is allocated
+  view = View(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), n + n / 8);
+}
+
+/// The same for an array whose entries are still needed.
+template <class View>
+void extend(View& view, const std::size_t n) {
+  if (view.extent(0) < n) Kokkos::resize(view, n + n / 2);
+}
+
+/// count(i) <- base + the counts of begin .. i - 1, for begin <= i <= end: entry `end` exists and is overwritten.
+/// @return base + all counts; waits for the device
+template <class Space>
+int scan_counts(const Space& space, const Kokkos::View<int*, Space>& count, const int begin, const int end,
+                const int base) {
+  int total = 0;
+  Kokkos::parallel_scan(
+      "skein::scan_counts", Kokkos::RangePolicy<Space>(space, begin, end + 1),
+      KOKKOS_LAMBDA(const int i, int& sum, const bool is_final) {
+        const int here = i < end ? count(i) : 0;
+        if (is_final) count(i) = base + sum;
+        sum += here;
+      },
+      total);
+  return base + total;
+}
+
+/// Entries of several lists, one after the other: list i is entries(first(i)) .. entries(first(i + 1) - 1).
+template <class Entry, class Space>
+struct DeviceLists {
+  Kokkos::View<int*, Space> first;
+  Kokkos::View<Entry*, Space> entries;
+  int n_entries = 0;
+
+  double bytes() const {
+    return static_cast<double>(entries.extent(0) * sizeof(Entry) + first.extent(0) * sizeof(int));
+  }
+};
+
+/// Where entries of one list go, or only their number: the same code counts and fills.
+template <class Entry>
+struct EntrySink {
+  Entry* to = nullptr;
+  int n = 0;
+
+  KOKKOS_INLINE_FUNCTION void add(const Entry& entry) {
+    if (to != nullptr) to[n] = entry;
+    ++n;
+  }
+};
+
+}  // namespace skein

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "fmm/device_octree.hpp"
+
+namespace skein {
+
+/// Nodes in the order of the tree, in a space's memory; arrays may be longer than what is in use.
+template <class Space>
+struct DeviceNodes {
+  VectorView<Space> position, force;  ///< [n_sources, 3]; forces carry the scale 1 / (8 pi viscosity)
+  ScalarView<Space> blob;
+  VectorView<Space> target;  ///< [n_targets, 3]; `position` itself where the sources are the targets
+
+  double bytes() const;
+};
+
+/// Sources and targets in the order of the caller.
+template <class Space>
+struct UnsortedNodes {
+  ConstVectorView<Space> position, force, target;
+  ConstScalarView<Space> blob;
+};
+
+template <class Space>
+void sort_nodes(const Space& space, const DeviceOctree<Space>& tree, const UnsortedNodes<Space>& nodes, double scale,
+                DeviceNodes<Space>& sorted);
+
+}  // namespace skein

@@ -1,0 +1,229 @@
+#include "fmm/device_octree.hpp"
+
+#include <skein/core/error.hpp>
+
+#include "kernels/node_checks.hpp"
+
+#include <algorithm>
+
+namespace skein {
+namespace {
+
+template <class Space>
+using Nodes = ConstVectorView<Space>;
+
+template <class Space>
+void widen(const Space& space, const Nodes<Space>& nodes, NodeBounds& bounds) {
+  const Kokkos::RangePolicy<Space> range(space, 0, nodes.extent_int(0));
+  for (int c = 0; c < 3; ++c) {
+    double low = 0.0, high = 0.0;
+    Kokkos::parallel_reduce(
+        "skein::find_lowest", range,
+        KOKKOS_LAMBDA(const int i, double& least) { least = nodes(i, c) < least ? nodes(i, c) : least; },
+        Kokkos::Min<double>(low));
+    Kokkos::parallel_reduce(
+        "skein::find_highest", range,
+        KOKKOS_LAMBDA(const int i, double& most) { most = nodes(i, c) > most ? nodes(i, c) : most; },
+        Kokkos::Max<double>(high));
+    bounds.low[c] = std::min(bounds.low[c], low);
+    bounds.high[c] = std::max(bounds.high[c], high);
+  }
+}
+
+/// Keys of every stride-th node, in the order of the nodes.
+template <class Space>
+void make_keys(const Space& space, const Nodes<Space>& nodes, const KeyOf& key_of, const int stride,
+               const KeyedOrder<Space>& keyed) {
+  const auto key = keyed.key;
+  const auto order = keyed.order;
+  Kokkos::parallel_for(
+      "skein::make_morton_keys", Kokkos::RangePolicy<Space>(space, 0, math::ceil_div(nodes.extent_int(0), stride)),
+      KOKKOS_LAMBDA(const int i) {
+        key(i) = key_of(nodes, i * stride);
+        order(i) = i;
+      });
+}
+
+template <class Space>
+SampledCells sample_cells(const Space& space, const Nodes<Space>& nodes, const KeyOf& key_of, const int stride,
+                          KeyedOrder<Space>& keyed, SortSpace<Space>& memory) {
+  SampledCells cells;
+  cells.n_keys = math::ceil_div(nodes.extent_int(0), stride);
+  keyed.require(static_cast<std::size_t>(cells.n_keys));
+  make_keys<Space>(space, nodes, key_of, stride, keyed);
+  sort_on_device(space, keyed, cells.n_keys, 3 * max_key_depth, memory);
+  const Kokkos::View<int*, Space> n_new("sampled_cells", max_key_depth + 1);
+  const auto key = keyed.key;
+  Kokkos::parallel_for(
+      "skein::sample_cells", Kokkos::RangePolicy<Space>(space, 1, math::larger(1, cells.n_keys)),
+      KOKKOS_LAMBDA(const int i) {
+        if (key(i) != key(i - 1)) Kokkos::atomic_add(&n_new(separating_level(key(i), key(i - 1))), 1);
+      });
+  space.fence();
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), n_new);
+  for (int level = 1; level <= max_key_depth; ++level) cells.n_new_cells[level] = host(level);
+  return cells;
+}
+
+/// First place in [first, last) whose key belongs to an octant above `octant`.
+template <class Keys>
+KOKKOS_INLINE_FUNCTION int find_octant_end(const Keys& key, int first, int last, const int shift,
+                                           const std::uint64_t octant) {
+  while (first < last) {
+    const int middle = first + (last - first) / 2;
+    if ((key(middle) >> shift & 7) <= octant)
+      first = middle + 1;
+    else
+      last = middle;
+  }
+  return first;
+}
+
+/// Where the nodes of a box's octants begin; octant 8 ends them.
+struct OctantBounds {
+  int source[9], target[9];
+  KOKKOS_INLINE_FUNCTION bool has(const int octant) const {
+    return source[octant + 1] > source[octant] || target[octant + 1] > target[octant];
+  }
+};
+
+template <class Keys>
+KOKKOS_INLINE_FUNCTION OctantBounds find_octants(const Keys& source_key, const Keys& target_key, const bool same_nodes,
+                                                 const Box& box, const int shift) {
+  OctantBounds bounds;
+  bounds.source[0] = box.sources.first;
+  bounds.target[0] = box.targets.first;
+  const int last_source = box.sources.first + box.sources.count, last_target = box.targets.first + box.targets.count;
+  for (int octant = 0; octant < 8; ++octant) {
+    const auto bits = static_cast<std::uint64_t>(octant);
+    bounds.source[octant + 1] = find_octant_end(source_key, bounds.source[octant], last_source, shift, bits);
+    bounds.target[octant + 1] = same_nodes
+                                    ? bounds.source[octant + 1]
+                                    : find_octant_end(target_key, bounds.target[octant], last_target, shift, bits);
+  }
+  return bounds;
+}
+
+KOKKOS_INLINE_FUNCTION Box make_child(const Box& parent, const int parent_index, const int octant,
+                                      const OctantBounds& bounds) {
+  Box child;
+  child.level = parent.level + 1;
+  child.parent = parent_index;
+  child.octant = octant;
+  for (int c = 0; c < 3; ++c) child.cell[c] = 2 * parent.cell[c] + (octant >> c & 1);
+  child.sources.first = bounds.source[octant];
+  child.sources.count = bounds.source[octant + 1] - bounds.source[octant];
+  child.targets.first = bounds.target[octant];
+  child.targets.count = bounds.target[octant + 1] - bounds.target[octant];
+  return child;
+}
+
+/// The boxes below one level, in the order of their parents and octants.
+template <class Space>
+void split_level(const Space& space, DeviceOctree<Space>& tree, const int level) {
+  const Run parents = tree.level(level);
+  const int shift = 3 * (tree.cube.max_depth - level - 1), split_above = tree.cube.split_above(level);
+  const bool same_nodes = tree.same_nodes;
+  const auto source_key = tree.sources.key, target_key = same_nodes ? tree.sources.key : tree.targets.key;
+  require_extent(tree.count, static_cast<std::size_t>(parents.count) + 1, "box_count");
+  const auto count = tree.count;
+  const auto parent_boxes = tree.boxes;
+  Kokkos::parallel_for(
+      "skein::count_children", Kokkos::RangePolicy<Space>(space, 0, parents.count), KOKKOS_LAMBDA(const int k) {
+        const Box box = parent_boxes(parents.first + k);
+        int n = 0;
+        if (math::larger(box.sources.count, box.targets.count) > split_above) {
+          const OctantBounds bounds = find_octants(source_key, target_key, same_nodes, box, shift);
+          for (int octant = 0; octant < 8; ++octant) n += bounds.has(octant);
+        }
+        count(k) = n;
+      });
+  const int first_child = tree.n_boxes();
+  const int n_boxes = scan_counts(space, tree.count, 0, parents.count, first_child);
+  if (n_boxes == first_child) return;
+  extend(tree.boxes, static_cast<std::size_t>(n_boxes));
+  const auto boxes = tree.boxes;
+  Kokkos::parallel_for(
+      "skein::split_boxes", Kokkos::RangePolicy<Space>(space, 0, parents.count), KOKKOS_LAMBDA(const int k) {
+        if (count(k + 1) == count(k)) return;
+        const int parent = parents.first + k;
+        Box box = boxes(parent);
+        const OctantBounds bounds = find_octants(source_key, target_key, same_nodes, box, shift);
+        box.first_child = count(k);
+        box.n_children = count(k + 1) - count(k);
+        int child = box.first_child;
+        for (int octant = 0; octant < 8; ++octant)
+          if (bounds.has(octant)) boxes(child++) = make_child(box, parent, octant, bounds);
+        boxes(parent) = box;
+      });
+  tree.level_first.push_back(n_boxes);
+}
+
+template <class Space>
+void split_boxes(const Space& space, DeviceOctree<Space>& tree) {
+  extend(tree.boxes, 1);
+  const auto boxes = tree.boxes;
+  const int n_sources = tree.n_sources, n_targets = tree.n_targets;
+  Kokkos::parallel_for(
+      "skein::make_root", Kokkos::RangePolicy<Space>(space, 0, 1), KOKKOS_LAMBDA(const int i) {
+        Box root;
+        root.sources.count = n_sources;
+        root.targets.count = n_targets;
+        boxes(i) = root;
+      });
+  tree.level_first = {0, 1};
+  for (int level = 0; level < tree.cube.max_depth && tree.n_levels() == level + 1; ++level)
+    split_level(space, tree, level);
+}
+
+template <class Space>
+OctreeCube choose_cube(const Space& space, DeviceOctree<Space>& tree, const Nodes<Space>& source,
+                       const Nodes<Space>& target, const OctreeRules& rules) {
+  NodeBounds bounds;
+  widen<Space>(space, source, bounds);
+  if (!tree.same_nodes) widen<Space>(space, target, bounds);
+  const Nodes<Space>& more = source.extent(0) >= target.extent(0) ? source : target;
+  return choose_octree_cube(bounds, more.extent_int(0), rules, [&](const KeyOf& key_of, const int stride) {
+    return sample_cells<Space>(space, more, key_of, stride, tree.sources, tree.sort_memory);
+  });
+}
+
+}  // namespace
+
+template <class Space>
+void DeviceOctree<Space>::build(const Space& space, const ConstVectorView<Space>& source,
+                                const ConstVectorView<Space>& target, const OctreeRules& rules) {
+  SKEIN_REQUIRE(rules.leaf_size >= 1, "a leaf holds at least one node");
+  n_sources = source.extent_int(0);
+  n_targets = target.extent_int(0);
+  same_nodes = are_same_nodes(source, target);
+  cube = choose_cube<Space>(space, *this, source, target, rules);
+  const KeyOf key_of = make_key_of(cube.corner, cube.side, cube.max_depth);
+  const auto sort = [&](const Nodes<Space>& nodes, KeyedOrder<Space>& keyed) {
+    keyed.require(nodes.extent(0));
+    make_keys<Space>(space, nodes, key_of, 1, keyed);
+    sort_on_device(space, keyed, nodes.extent_int(0), 3 * cube.max_depth, sort_memory);
+  };
+  sort(source, sources);
+  if (!same_nodes) sort(target, targets);
+  split_boxes(space, *this);
+  build_far_lists(space, *this, rules);
+  build_near_lists(space, *this, rules);
+}
+
+template <class Space>
+double DeviceOctree<Space>::bytes() const {
+  const double n_ints =
+      static_cast<double>(target_leaves.extent(0) + near_end.extent(0) + count.extent(0) + sort_memory.place.extent(0));
+  return sources.bytes() + targets.bytes() + sort_memory.spare.bytes() + 4.0 * n_ints +
+         static_cast<double>(boxes.extent(0) * sizeof(Box)) + near_sources.bytes() + fine_sources.bytes() +
+         far_pairs.bytes() + coarse_sources.bytes() + touching.bytes() + coarse_direct.bytes();
+}
+
+#define SKEIN_INSTANTIATE(S)                                                                           \
+  template void DeviceOctree<S>::build(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&, \
+                                       const OctreeRules&);                                            \
+  template double DeviceOctree<S>::bytes() const;
+SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
+
+}  // namespace skein

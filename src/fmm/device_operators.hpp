@@ -1,0 +1,66 @@
+#pragma once
+
+#include "fmm/fmm_operator_set.hpp"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace skein {
+
+/// A PaddedMatrix in a space's memory, which DeviceOperators keep.
+template <class Real>
+struct DeviceMatrix {
+  const Real* entry = nullptr;
+  int n_rows = 0;  ///< also the stride of the columns
+  int n_columns = 0;
+};
+
+/// What kernels see of an OperatorSet; the names are the same.
+template <class Real>
+struct DeviceOperatorSet {
+  int n_surface = 0, n_padded = 0, rank_padded = 0;
+  const Real* surface = nullptr;  ///< [n_padded, 3], axis after axis
+  const Real* sign = nullptr;     ///< [rank_padded, 8], reflection after reflection
+  DeviceMatrix<Real> to_source, to_target, source_density, target_density, to_parent, to_child;
+  DeviceMatrix<Real> transfer_last[n_transfers], transfer_first[n_transfers];
+
+  KOKKOS_INLINE_FUNCTION const Real* sign_of(const int reflected) const { return sign + reflected * rank_padded; }
+  KOKKOS_INLINE_FUNCTION Real surface_at(const int point, const int axis) const {
+    return surface[axis * n_padded + point];
+  }
+};
+
+/// The operators of the levels of a tree, for kernels; above first_far_level there are none.
+template <class Space, class Real>
+struct DeviceLevels {
+  Kokkos::View<const DeviceOperatorSet<Real>*, Space> sets;
+  int n_padded = 0;         ///< the same at all levels
+  int max_rank_padded = 0;  ///< of all levels
+};
+
+/// Copies of operators in a space's memory: each is copied when it is first met, and dropped when a call does not ask
+/// for it.
+template <class Space, class Real>
+class DeviceOperators {
+ public:
+  /// @param levels  of each level of the tree; null where there are none
+  DeviceLevels<Space, Real> require(const std::vector<const OperatorSet<Real>*>& levels);
+  double bytes() const;
+
+ private:
+  struct Copy {
+    std::shared_ptr<const void> host;  ///< the array that was copied: while it lives, its place in memory is its name
+    Kokkos::View<const Real*, Space> device;
+  };
+  using Copies = std::map<const Real*, Copy>;
+
+  template <class Array>
+  const Real* copy_array(const Array& array, Copies& used) const;
+  DeviceMatrix<Real> copy_matrix(const PaddedMatrix<Real>& matrix, Copies& used) const;
+  DeviceOperatorSet<Real> copy_set(const OperatorSet<Real>& set, Copies& used) const;
+
+  Copies copies_;
+};
+
+}  // namespace skein

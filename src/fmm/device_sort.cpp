@@ -1,0 +1,72 @@
+#include "fmm/device_sort.hpp"
+
+#include <utility>
+
+namespace skein {
+namespace {
+
+constexpr int digit_bits = 4;
+constexpr int n_digits = 1 << digit_bits;
+constexpr int chunk_keys = 32;  // of a thread
+
+/// One stable pass by one digit: threads count the digits of their chunks, a scan over (digit, chunk) gives each chunk
+/// its places.
+template <class Space>
+void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrder<Space>& to, const int n,
+               const int shift, const Kokkos::View<int*, Space>& place) {
+  const int n_chunks = math::ceil_div(n, chunk_keys);
+  const auto from_key = from.key, to_key = to.key;
+  const auto from_order = from.order, to_order = to.order;
+  const auto places = place;
+  Kokkos::parallel_for(
+      "skein::sort_on_device_count", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+        int count[n_digits] = {};
+        const int last = math::smaller(n, (chunk + 1) * chunk_keys);
+        for (int i = chunk * chunk_keys; i < last; ++i)
+          ++count[static_cast<int>(from_key(i) >> shift) & (n_digits - 1)];
+        for (int digit = 0; digit < n_digits; ++digit) places(digit * n_chunks + chunk) = count[digit];
+      });
+  scan_counts(space, place, 0, n_digits * n_chunks, 0);
+  Kokkos::parallel_for(
+      "skein::sort_on_device_move", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+        int next[n_digits];
+        for (int digit = 0; digit < n_digits; ++digit) next[digit] = places(digit * n_chunks + chunk);
+        const int last = math::smaller(n, (chunk + 1) * chunk_keys);
+        for (int i = chunk * chunk_keys; i < last; ++i) {
+          const std::uint64_t key = from_key(i);
+          const int at = next[static_cast<int>(key >> shift) & (n_digits - 1)]++;
+          to_key(at) = key;
+          to_order(at) = from_order(i);
+        }
+      });
+}
+
+/// Fibers come in order, and nodes move little.
+template <class Space>
+bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n) {
+  const auto key = sorted.key;
+  int n_descents = 0;
+  Kokkos::parallel_reduce(
+      "skein::sort_on_device_check", Kokkos::RangePolicy<Space>(space, 0, math::larger(0, n - 1)),
+      KOKKOS_LAMBDA(const int i, int& sum) { sum += key(i) > key(i + 1); }, n_descents);
+  return n_descents == 0;
+}
+
+}  // namespace
+
+template <class Space>
+void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, const int n, const int n_bits,
+                    SortSpace<Space>& memory) {
+  if (is_sorted(space, sorted, n)) return;
+  memory.spare.require(static_cast<std::size_t>(n));
+  require_extent(memory.place, static_cast<std::size_t>(n_digits * math::ceil_div(n, chunk_keys) + 1), "sort_places");
+  for (int shift = 0; shift < n_bits; shift += digit_bits) {
+    sort_pass(space, sorted, memory.spare, n, shift, memory.place);
+    std::swap(sorted, memory.spare);
+  }
+}
+
+#define SKEIN_INSTANTIATE(S) template void sort_on_device<S>(const S&, KeyedOrder<S>&, int, int, SortSpace<S>&);
+SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
+
+}  // namespace skein

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "fmm/device_arrays.hpp"
+
+#include <cstdint>
+
+namespace skein {
+
+/// Keys and what is sorted by them.
+template <class Space>
+struct KeyedOrder {
+  Kokkos::View<std::uint64_t*, Space> key;
+  Kokkos::View<int*, Space> order;
+
+  void require(const std::size_t n) {
+    require_extent(key, n, "key");
+    require_extent(order, n, "order");
+  }
+  double bytes() const { return 12.0 * static_cast<double>(key.extent(0)); }
+};
+
+/// What the sort needs besides; kept between calls.
+template <class Space>
+struct SortSpace {
+  KeyedOrder<Space> spare;
+  Kokkos::View<int*, Space> place;
+};
+
+/// The first n of `sorted` by key, ascending and stable: the same unique result as sort_by_key, in the memory of any
+/// execution space. Arrays may change places with the spare ones. Waits for the device.
+template <class Space>
+void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, int n, int n_bits, SortSpace<Space>& memory);
+
+}  // namespace skein

@@ -1,0 +1,139 @@
+#pragma once
+
+#include "fmm/device_nodes.hpp"
+#include "fmm/device_operators.hpp"
+#include "fmm/laplace.hpp"
+
+// What the teams of the device's passes share. Every number is the work of one thread, in an order that no size of a
+// team changes.
+
+namespace skein {
+
+inline constexpr int team_tile = 128;  ///< sources that a team keeps at once
+
+/// Threads of a team: what GPUs like; a host's threads work alone. 0 leaves it to Kokkos.
+template <class Space>
+inline constexpr int usual_team_size = on_host<Space> ? 1 : 128;
+
+/// @param n_bytes  scratch memory of a team
+template <class Space>
+Kokkos::TeamPolicy<Space> make_team_policy(const Space& space, const int n_teams, const int team_size,
+                                           const int scratch_level, const std::size_t n_bytes) {
+  using Policy = Kokkos::TeamPolicy<Space>;
+  Policy policy = team_size > 0 ? Policy(space, n_teams, team_size) : Policy(space, n_teams, Kokkos::AUTO);
+  policy.set_scratch_size(scratch_level, Kokkos::PerTeam(static_cast<int>(n_bytes)));
+  return policy;
+}
+
+/// The fast memory where it suffices for several teams at once, else the large one.
+inline int choose_scratch_level(const std::size_t n_bytes) { return n_bytes <= 32768 ? 0 : 1; }
+
+template <class Space, class Entry>
+using TeamArray = Kokkos::View<Entry*, typename Space::scratch_memory_space, Kokkos::MemoryUnmanaged>;
+
+/// to[row] = product.
+template <class Real>
+struct StoreProduct {
+  Real* to;
+  int stride;
+  template <int n_columns>
+  KOKKOS_INLINE_FUNCTION void operator()(const int row, const Real (&sum)[n_columns]) const {
+    for (int column = 0; column < n_columns; ++column) to[row + column * stride] = sum[column];
+  }
+};
+
+/// to[row] += sign[row] product.
+template <class Real>
+struct AddProduct {
+  Real* to;
+  int stride;
+  const Real* sign;
+  template <int n_columns>
+  KOKKOS_INLINE_FUNCTION void operator()(const int row, const Real (&sum)[n_columns]) const {
+    for (int column = 0; column < n_columns; ++column) to[row + column * stride] += sign[row] * sum[column];
+  }
+};
+
+template <int n_rows, int n_columns, class Real, class Write>
+KOKKOS_INLINE_FUNCTION void multiply_rows(const DeviceMatrix<Real>& a, const int row, const Real* b, const int b_stride,
+                                          const Write& write) {
+  Real sum[n_rows][n_columns] = {};
+  const Real* column = a.entry + row;
+  for (int k = 0; k < a.n_columns; ++k, column += a.n_rows)
+    for (int i = 0; i < n_rows; ++i)
+      for (int j = 0; j < n_columns; ++j) sum[i][j] += column[i] * b[k + j * b_stride];
+  for (int i = 0; i < n_rows; ++i) write(row + i, sum[i]);
+}
+
+/// A times the columns b, each row by one thread; neighbours read neighbouring entries of A. b is complete already, and
+/// what is written is complete after the next barrier.
+template <int n_columns, class Team, class Real, class Write>
+KOKKOS_INLINE_FUNCTION void team_multiply(const Team& team, const DeviceMatrix<Real>& a, const Real* b,
+                                          const int b_stride, const Write& write) {
+#if SKEIN_ON_DEVICE
+  constexpr int at_once = 1;
+#else
+  constexpr int at_once = 8;  // rows in vector registers
+#endif
+  int row = at_once * team.team_rank();
+  for (; row + at_once <= a.n_rows; row += at_once * team.team_size())
+    multiply_rows<at_once, n_columns>(a, row, b, b_stride, write);
+  const int last = math::smaller(a.n_rows, row + at_once);  // of this thread's cut block, if it has one
+  for (; row < last; ++row) multiply_rows<1, n_columns>(a, row, b, b_stride, write);
+}
+
+/// column <- from with the signs of a reflection. The fourth column of a field that shifts (psi, measured from the
+/// box's centre) is moved to the centre of the other box: to = scale * psi + shift . phi.
+template <class Field, class Team, class Real>
+KOKKOS_INLINE_FUNCTION void team_gather(const Team& team, const Real* from, const int stride, const int n,
+                                        const Real* sign, const Real scale, const Real (&shift)[3], Real* to,
+                                        const int to_stride) {
+  for (int i = team.team_rank(); i < n; i += team.team_size()) {
+    if constexpr (Field::shifts) {
+      const Real x = from[i], y = from[i + stride], z = from[i + 2 * stride], psi = from[i + 3 * stride];
+      to[i] = sign[i] * x;
+      to[i + to_stride] = sign[i] * y;
+      to[i + 2 * to_stride] = sign[i] * z;
+      to[i + 3 * to_stride] = sign[i] * (scale * psi + shift[0] * x + shift[1] * y + shift[2] * z);
+    } else {
+      for (int column = 0; column < Field::n_columns; ++column)
+        to[i + column * to_stride] = sign[i] * from[i + column * stride];
+    }
+  }
+}
+
+/// potential[plane][n_padded] += field of a run of sources at the surface of that size about a box's centre. Begins and
+/// ends with threads that may be apart.
+/// @param tile  [team_tile], of the team
+template <class Space, class Team, class Real, class Field>
+KOKKOS_INLINE_FUNCTION void team_add_potentials(const Team& team, const DeviceNodes<Space>& nodes, const Run& run,
+                                                const Vec3 center, const double half_width, const Field& field,
+                                                const DeviceOperatorSet<Real>& operators, const Real size,
+                                                FarSource<Real>* tile, Real* potential) {
+  const double to_units = 1.0 / half_width;
+  for (int first = 0; first < run.count; first += team_tile) {
+    const int count = math::smaller(team_tile, run.count - first);
+    team.team_barrier();  // the tile may be overwritten
+    for (int s = team.team_rank(); s < count; s += team.team_size()) {
+      const int i = run.first + first + s;
+      const Vec3 y = to_units * (load(nodes.position, i) - center);
+      const double blob = to_units * nodes.blob(i);
+      FarSource<Real>& source = tile[s];
+      source.y[0] = static_cast<Real>(y.x);
+      source.y[1] = static_cast<Real>(y.y);
+      source.y[2] = static_cast<Real>(y.z);
+      for (int c = 0; c < 3; ++c) source.force[c] = static_cast<Real>(nodes.force(i, c));
+      source.blob_squared = static_cast<Real>(blob * blob);
+    }
+    team.team_barrier();  // the tile is complete
+    for (int p = team.team_rank(); p < operators.n_padded; p += team.team_size()) {
+      const Real x = size * operators.surface_at(p, 0), y = size * operators.surface_at(p, 1),
+                 z = size * operators.surface_at(p, 2);
+      Real sum[Field::n_planes] = {};
+      for (int s = 0; s < count; ++s) field.add_source(x, y, z, tile[s], sum);
+      for (int plane = 0; plane < Field::n_planes; ++plane) potential[plane * operators.n_padded + p] += sum[plane];
+    }
+  }
+}
+
+}  // namespace skein

@@ -1,0 +1,162 @@
+#include "fmm_evaluator.hpp"
+
+#include <skein/arrays/combination.hpp>
+
+#include <string>
+
+namespace skein {
+namespace {
+
+void resize(HostVectors& array, const int n, const char* label) {
+  if (array.extent_int(0) != n)
+    array = HostVectors(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), n);
+}
+
+}  // namespace
+
+bool FmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
+  nodes_.position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.position);
+  nodes_.force = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.force);
+  nodes_.blob = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.blob);
+  const bool same = are_same_nodes(sources.position, target);
+  if (same)
+    nodes_.target = nodes_.position;
+  else
+    nodes_.target = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), target);
+  blobs_ = find_blob_range<HostSpace>(HostSpace(), nodes_.blob);
+  return are_finite<HostSpace>(HostSpace(), nodes_.position) &&
+         (same || are_finite<HostSpace>(HostSpace(), nodes_.target));
+}
+
+void FmmEvaluator::sort_nodes(const double scale) {
+  const HostNodes nodes = nodes_;
+  const int n_sources = nodes.position.extent_int(0), n_targets = nodes.target.extent_int(0);
+  const bool same = are_same_nodes(nodes.position, nodes.target);
+  resize(sorted_.position, n_sources, "sorted_position");
+  resize(sorted_.force, n_sources, "sorted_force");
+  if (sorted_.blob.extent_int(0) != n_sources) sorted_.blob = HostScalars("sorted_blob", n_sources);
+  if (same)
+    sorted_.target = sorted_.position;
+  else if (sorted_.target.data() == sorted_.position.data() || sorted_.target.extent_int(0) != n_targets)
+    sorted_.target = HostVectors("sorted_target", n_targets);
+  const auto sorted = sorted_;
+  const auto source_order = tree_.source_order(), target_order = tree_.target_order();
+  Kokkos::parallel_for("skein::sort_sources", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sources),
+                       [=](const int i) {
+                         const int from = source_order(i);
+                         store(sorted.position, i, load(nodes.position, from));
+                         store(sorted.force, i, scale * load(nodes.force, from));
+                         sorted.blob(i) = nodes.blob(from);
+                       });
+  if (!same)
+    Kokkos::parallel_for("skein::sort_targets", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_targets),
+                         [=](const int i) { store(sorted.target, i, load(nodes.target, target_order(i))); });
+}
+
+template <class Near, class Real, class Field>
+void FmmEvaluator::add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+                              const Coefficients<Real>& coefficients) {
+  if (!is_symmetric_) {
+    add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, {tree_.near_sources(), {}},
+                                           tasks_, own_velocity_);
+    return;
+  }
+  resize(near_velocity_, sorted_.target.extent_int(0), "near_velocity");
+  compute_near_velocities<Near>(sorted_, make_near_matches(tree_), near_velocity_);
+  add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients,
+                                         {tree_.one_way_sources(), near_velocity_}, tasks_, own_velocity_);
+}
+
+template <class Real, class Field>
+void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+                        Coefficients<Real>& coefficients) {
+  LapTimer watch;
+  coefficients.stride = 0;
+  for (const auto* level : levels)
+    if (level != nullptr) coefficients.stride = math::larger(coefficients.stride, level->rank_padded);
+  coefficients.box_size = Field::n_columns * coefficients.stride;
+  const std::size_t needed = tree_.boxes().size() * static_cast<std::size_t>(coefficients.box_size);
+  if (coefficients.source.extent(0) < needed) {
+    coefficients.source = {};  // before the new ones are allocated
+    coefficients.target = {};
+    coefficients.source = Kokkos::View<Real*, HostSpace>(
+        Kokkos::view_alloc(std::string("source_coefficients"), Kokkos::WithoutInitializing), needed + needed / 8);
+    coefficients.target = Kokkos::View<Real*, HostSpace>(
+        Kokkos::view_alloc(std::string("target_coefficients"), Kokkos::WithoutInitializing), needed + needed / 8);
+  }
+  compute_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients);
+  statistics.far_seconds = watch.lap();
+  with_near_precision<Real>(plan, [&](auto near) { add_leaves<decltype(near), Real>(field, levels, coefficients); });
+  statistics.leaf_seconds = watch.lap();
+}
+
+template <class Real>
+void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, OperatorStore<Real>& store,
+                          Coefficients<Real>& coefficients) {
+  LapTimer watch;
+  const auto levels = store.require(options.far_field, plan, blobs_.largest, tree_);
+  statistics.operators_seconds = watch.lap();
+  with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, coefficients); });
+  statistics.memory_bytes = store.bytes() + 2.0 * sizeof(Real) * static_cast<double>(coefficients.source.size()) +
+                            node_bytes() + tree_.bytes();
+}
+
+void FmmEvaluator::count_work(const FmmPlan& plan) {
+  statistics.plan = plan;
+  statistics.n_boxes = static_cast<int>(tree_.boxes().size());
+  statistics.n_levels = tree_.n_levels();
+  statistics.n_leaves = static_cast<int>(tree_.target_leaves().size());
+  statistics.smallest_half_width = tree_.half_width(tree_.n_levels() - 1);
+  statistics.work.n_sources = static_cast<double>(tree_.source_order().extent(0));
+  statistics.work.n_targets = static_cast<double>(tree_.target_order().extent(0));
+  statistics.work.n_boxes = static_cast<double>(tree_.boxes().size());
+  statistics.work.far_pairs = static_cast<double>(tree_.far_pairs().entries.size());
+  statistics.work.near_pairs = 0.0;
+  for (int leaf = 0; leaf < statistics.n_leaves; ++leaf) {
+    double n_sources = 0.0;
+    for (const Run* run = tree_.near_sources().begin(leaf); run != tree_.near_sources().end(leaf); ++run)
+      n_sources += run->count;
+    const auto box = static_cast<std::size_t>(tree_.target_leaves()[static_cast<std::size_t>(leaf)]);
+    statistics.work.near_pairs += n_sources * tree_.boxes()[box].targets.count;
+  }
+}
+
+double FmmEvaluator::node_bytes() const {
+  const bool same = sorted_.target.data() == sorted_.position.data();
+  return 8.0 * static_cast<double>(sorted_.position.size() + sorted_.force.size() + sorted_.blob.size() +
+                                   (same ? 0 : sorted_.target.size()));
+}
+
+bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
+  LapTimer watch;
+  FmmPlan plan = chosen;
+  tree_.build(nodes_.position, nodes_.target, make_octree_rules(options, plan));
+  tasks_ = make_target_tasks(tree_);
+  settle_plan(options, blobs_, tree_.largest_leaf(), plan);
+  count_work(plan);
+  statistics.tree_seconds = watch.lap();
+  is_symmetric_ = tree_.has_same_nodes() && blobs_.smallest == blobs_.largest;
+  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_) > 1.0) return false;
+  if (own_velocity_.extent(0) == nodes_.target.extent(0))
+    Kokkos::deep_copy(own_velocity_, 0.0);
+  else
+    own_velocity_ = HostVectors("fmm_velocity", nodes_.target.extent(0));
+  sort_nodes(regularized_stokeslet::scale(viscosity));
+  statistics.sort_seconds = watch.lap();
+  if (plan.far_in_single)
+    add_in<float>(options, plan, single_operators_, single_coefficients_);
+  else
+    add_in<double>(options, plan, operators_, coefficients_);
+  return true;
+}
+
+void FmmEvaluator::add_to(const Vectors& velocity) const {
+  const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), own_velocity_);
+  combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, own});
+}
+
+std::vector<Vec3> FmmEvaluator::sample(const EvenSample& sample) const {
+  return read_sample<HostSpace>(HostSpace(), own_velocity_, sample);
+}
+
+}  // namespace skein

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "fmm/fmm_near_matches.hpp"
+#include "fmm/fmm_translations.hpp"
+#include "fmm_choices.hpp"
+#include "operator_store.hpp"
+
+#include <vector>
+
+namespace skein {
+
+/// Sources and targets in the host's memory; `target` is `position` itself where the sources are the targets.
+struct HostNodes {
+  ConstVectorView<HostSpace> position, force, target;
+  ConstScalarView<HostSpace> blob;
+};
+
+/// The evaluation on the host, with its vector units; device arrays are copied.
+class FmmEvaluator final : public FmmSum {
+ public:
+  bool take(const Sources& sources, const ConstVectors& target) override;
+  double largest_blob() const override { return blobs_.largest; }
+  bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) override;
+  void add_to(const Vectors& velocity) const override;
+  std::vector<Vec3> sample(const EvenSample& sample) const override;
+
+ private:
+  void sort_nodes(double scale);
+  template <class Real>
+  void add_in(const FmmOptions& options, const FmmPlan& plan, OperatorStore<Real>& store,
+              Coefficients<Real>& coefficients);
+  template <class Real, class Field>
+  void pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+            Coefficients<Real>& coefficients);
+  template <class Near, class Real, class Field>
+  void add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
+                  const Coefficients<Real>& coefficients);
+  void count_work(const FmmPlan& plan);
+  double node_bytes() const;
+
+  HostNodes nodes_;
+  BlobRange blobs_{0.0, 0.0};
+  HostVectors own_velocity_;
+  Octree tree_;
+  SortedNodes sorted_;
+  bool is_symmetric_ = false;  ///< sources are targets, with one blob
+  HostVectors near_velocity_;
+  OperatorStore<double> operators_;
+  OperatorStore<float> single_operators_;
+  Coefficients<double> coefficients_;
+  Coefficients<float> single_coefficients_;
+  std::vector<TargetTask> tasks_;
+};
+
+}  // namespace skein

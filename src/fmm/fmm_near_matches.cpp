@@ -1,0 +1,74 @@
+#include "fmm/fmm_near_matches.hpp"
+
+#include "kernels/stokeslet_exchange.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace skein {
+namespace {
+
+/// Even parts of whole packs, but for the last.
+void cut_leaf(const Run nodes, std::vector<Run>& tiles) {
+  const int n_tiles = math::ceil_div(nodes.count, side_nodes);
+  const int size = math::ceil_div(nodes.count, n_tiles * tile_step) * tile_step;
+  for (int i = 0; i < nodes.count; i += size) tiles.push_back({nodes.first + i, math::smaller(size, nodes.count - i)});
+}
+
+/// Matches of equal distance d = other - one whose first tiles lie in the same half of a period of 2 d have no tile in
+/// common, so that threads seldom wait for each other.
+std::uint64_t place_of(const Match& match) {
+  const auto distance = static_cast<std::uint64_t>(match.other - match.one);
+  const auto one = static_cast<std::uint64_t>(match.one);
+  const std::uint64_t half = distance == 0 ? 0 : one / distance % 2;
+  return (2 * distance + half) << 31 | one;
+}
+
+}  // namespace
+
+NearMatches make_near_matches(const Octree& tree) {
+  NearMatches near;
+  const int n_leaves = static_cast<int>(tree.target_leaves().size());
+  std::vector<int> first_tile;
+  for (const int leaf : tree.target_leaves()) {
+    first_tile.push_back(static_cast<int>(near.tiles.size()));
+    cut_leaf(tree.boxes()[static_cast<std::size_t>(leaf)].sources, near.tiles);
+  }
+  first_tile.push_back(static_cast<int>(near.tiles.size()));
+  const auto tiles_of = [&](const int leaf) {
+    const auto i = static_cast<std::size_t>(leaf);
+    return Run{first_tile[i], first_tile[i + 1] - first_tile[i]};
+  };
+  for (int leaf = 0; leaf < n_leaves; ++leaf) {
+    const Run own = tiles_of(leaf);
+    for (const int* partner = tree.near_partners().begin(leaf); partner != tree.near_partners().end(leaf); ++partner) {
+      const Run others = tiles_of(*partner);
+      for (int i = own.first; i < own.first + own.count; ++i)
+        for (int j = *partner == leaf ? i : others.first; j < others.first + others.count; ++j)
+          near.matches.push_back({i, j});
+    }
+  }
+  std::sort(near.matches.begin(), near.matches.end(),
+            [](const Match& a, const Match& b) { return place_of(a) < place_of(b); });
+  count_turns(static_cast<int>(near.tiles.size()), near.matches);
+  return near;
+}
+
+template <class Near>
+void compute_near_velocities(const SortedNodes& nodes, const NearMatches& near, const HostVectors& velocity) {
+  Kokkos::deep_copy(velocity, 0.0);
+  const HostSources sources{nodes.position, nodes.force, nodes.blob, 1.0};
+  const auto run_of = [&](const int tile) { return near.tiles[static_cast<std::size_t>(tile)]; };
+  play_in_order("skein::compute_near_velocities", HostSpace(), static_cast<int>(near.tiles.size()), near.matches,
+                [&](const Match& match) {
+                  if (match.one == match.other)
+                    add_within<Near, Coordinates::rounded>(sources, run_of(match.one), velocity);
+                  else
+                    add_between<Near, Coordinates::rounded>(sources, run_of(match.one), run_of(match.other), velocity);
+                });
+}
+
+template void compute_near_velocities<double>(const SortedNodes&, const NearMatches&, const HostVectors&);
+template void compute_near_velocities<float>(const SortedNodes&, const NearMatches&, const HostVectors&);
+
+}  // namespace skein

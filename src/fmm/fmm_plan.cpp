@@ -1,0 +1,221 @@
+#include <skein/core/error.hpp>
+#include <skein/core/math.hpp>
+#include <skein/fmm/fmm_plan.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <string>
+
+namespace skein {
+namespace {
+
+/// One line of the tables. The errors are the largest of random, aligned and balanced forces on clouds, clusters,
+/// lines, coils, tubes, shells and sheets, at the sources, with a margin of two or more; ranks are those of the cut-off
+/// operators.
+struct Row {
+  int order;
+  double cutoff;
+  double error;
+  int rank;
+  int leaf_size;
+};
+using Rows = std::span<const Row>;
+
+/// More points than 14 per edge gain nothing: rounding in the operators themselves is met.
+constexpr Row harmonic_rows[] = {
+    {4, 1e-4, 3e-3, 56, 64},        {5, 1e-5, 5e-4, 90, 64},      {6, 1e-6, 6e-5, 121, 64},
+    {7, 1e-7, 8e-6, 168, 100},      {8, 1e-8, 1.5e-6, 200, 90},   {9, 1e-9, 3e-7, 260, 90},
+    {10, 1e-10, 6e-8, 350, 180},    {11, 1e-10, 1e-8, 380, 220},  {12, 1e-11, 9e-10, 480, 250},
+    {13, 1e-12, 1.5e-10, 600, 300}, {14, 1e-13, 5e-11, 750, 300}, {15, 1e-14, 5e-11, 900, 300},
+    {16, 1e-14, 5e-11, 1000, 300},
+};
+
+/// Strengths of Stokeslets, S_0 or S_eps. Above 12 points no more is promised. Without the cutoffs blobs are amplified
+/// by the small singular values of these operators: at eps = half-width / 10 errors stay at 1e-3 .. 1e-4 whatever the
+/// order.
+constexpr Row stokeslet_rows[] = {
+    {4, 1e-4, 5e-3, 150, 64},     {5, 1e-5, 1e-3, 220, 80},     {6, 1e-6, 2e-4, 300, 100},
+    {7, 1e-7, 4e-5, 400, 140},    {8, 1e-8, 1e-5, 500, 180},    {9, 1e-9, 2e-6, 600, 220},
+    {10, 1e-9, 1e-6, 700, 250},   {11, 1e-10, 2e-7, 900, 300},  {12, 1e-10, 1e-7, 1000, 300},
+    {13, 1e-10, 1e-7, 1100, 300}, {14, 1e-10, 1e-7, 1200, 300}, {15, 1e-10, 1e-7, 1300, 300},
+    {16, 1e-10, 1e-7, 1400, 300},
+};
+
+/// Errors at targets apart from the sources over those of the tables: at most 7.5 for 260 sources of random forces in
+/// cubes, clusters, on lines and tubes, and random targets beside them (orders 5 to 8, 100 to 150 of each).
+constexpr double apart_excess = 8.0;
+
+double excess_of(const FmmTargets targets) { return targets == FmmTargets::apart ? apart_excess : 1.0; }
+
+/// Error between the nearest well-separated boxes over (eps / half-width)^4.
+double floor_factor(const FmmOptions& options) {
+  if (options.far_field == FarField::regularized) return 0.05;
+  if (options.far_field == FarField::stokeslet && !options.stokes_part_only) return 0.1;
+  return 0.011;
+}
+
+/// What single precision adds, and the smallest singular values it can tell from noise.
+constexpr double single_error = 9e-7, single_cutoff = 1e-8;
+
+Rows rows_of(const FarField far_field) {
+  if (far_field == FarField::harmonic) return harmonic_rows;
+  return stokeslet_rows;
+}
+
+/// The cheapest row that meets the tolerance, of this order or more.
+const Row* find_row(const FmmOptions& options, const int least_order) {
+  const Rows rows = rows_of(options.far_field);
+  const Row* row = &rows.front();
+  while (row != &rows.back() && (row->error > options.tolerance || row->order < least_order)) ++row;
+  return row;
+}
+
+/// Of the tolerance, that blobs may use up: what the order leaves, or half of it, because the order's own error is
+/// seldom as large as its bound.
+double blob_share(const FmmOptions& options) {
+  return std::max(0.5, 1.0 - find_row(options, options.order)->error / options.tolerance);
+}
+
+/// Of an order's error, that the transfers may lose by being taken apart.
+constexpr double transfer_share = 0.01;
+
+/// The best that a far field promises.
+double least_error(const FmmOptions& options) {
+  const Rows rows = rows_of(options.far_field);
+  const double error =
+      std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.error < b.error; })->error;
+  return options.precision == FmmPrecision::in_single ? std::max(error, single_error) : error;
+}
+
+}  // namespace
+
+double smallest_half_width(const FmmOptions& options, const double max_blob) {
+  return max_blob * std::pow(floor_factor(options) / (blob_share(options) * options.tolerance), 0.25);
+}
+
+double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
+
+double single_precision_error(const double min_blob, const double half_width) {
+  return 2e-7 + 2e-8 * half_width / min_blob;
+}
+
+bool needs_direct_sum(const FmmOptions& options, const FmmTargets targets) {
+  return options.tolerance < excess_of(targets) * least_error(options);
+}
+
+std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
+  std::vector<OptionProblem> problems;
+  const Rows rows = rows_of(options.far_field);
+  const bool has_tolerance = options.tolerance > 0.0;
+  const bool has_order = options.order >= rows.front().order && options.order <= rows.back().order;
+  if (!has_tolerance)
+    problems.push_back({"tolerance", fmt::format("tolerance = {}: must be positive", options.tolerance)});
+  if (options.leaf_size < 0)
+    problems.push_back({"leaf_size", fmt::format("leaf_size = {}: must not be negative", options.leaf_size)});
+  if (options.order != 0 && !has_order)
+    problems.push_back(
+        {"order", fmt::format("order = {}: must be between {} and {} with this far field, or 0 to leave it "
+                              "to the tolerance",
+                              options.order, rows.front().order, rows.back().order)});
+  if (has_tolerance && needs_direct_sum(options))
+    problems.push_back(
+        {"tolerance",
+         fmt::format("tolerance = {:g} is below {:g}, the best that the fast multipole method promises with this far "
+                     "field and precision: raise it, or use method = \"direct\"",
+                     options.tolerance, least_error(options))});
+  if (has_tolerance && has_order) {
+    const double error = rows[static_cast<std::size_t>(options.order - rows.front().order)].error;
+    if (error > options.tolerance)
+      problems.push_back(
+          {"order",
+           fmt::format("order = {}: its error may be {:g}, above tolerance = {:g}: use a larger order, or 0 to "
+                       "leave it to the tolerance",
+                       options.order, error, options.tolerance)});
+  }
+  return problems;
+}
+
+void check_fmm_options(const FmmOptions& options) {
+  const auto problems = find_fmm_problems(options);
+  if (!problems.empty()) throw Error(ExitCode::scene_error, problems.front().message);
+}
+
+FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const int raised_order,
+                        const FmmTargets targets) {
+  check_fmm_options(wanted);
+  // What is set by hand stays, and the best that there is has to do where the tolerance leaves no room.
+  FmmOptions options = wanted;
+  if (wanted.order == 0 && wanted.min_half_width == 0.0)
+    options.tolerance =
+        std::min(wanted.tolerance, std::max(wanted.tolerance / excess_of(targets), least_error(wanted)));
+  const Row* const planned = find_row(options, options.order);
+  const Row* const row = find_row(options, math::larger(options.order, raised_order));
+  const int n_raises = row->order - planned->order;
+
+  FmmPlan plan;
+  plan.order = row->order;
+  plan.rank = row->rank;
+  plan.far_in_single = options.precision == FmmPrecision::in_single ||
+                       (options.precision == FmmPrecision::automatic &&
+                        // After misses, of which single precision may have been the cause, with a margin.
+                        options.tolerance >= (1.0 + 9.0 * n_raises) * single_error);
+  plan.near_in_single = plan.far_in_single;
+  plan.singular_cutoff = options.singular_cutoff > 0.0 && n_raises == 0 ? options.singular_cutoff
+                         : plan.far_in_single                           ? std::max(row->cutoff, single_cutoff)
+                                                                        : row->cutoff;
+  plan.transfer_tolerance = transfer_share * row->error;
+  plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
+  plan.expected_error = excess_of(targets) * (plan.far_in_single ? std::max(row->error, single_error) : row->error);
+
+  const double needed = smallest_half_width(options, max_blob);
+  plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
+  if (plan.min_half_width < 0.999 * needed)
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("min_half_width = {:g}: leaves this small miss tolerance = {:g} with blobs of {:g} (error floor "
+                    "{:g}): use {:.4g} or more, or 0",
+                    options.min_half_width, options.tolerance, max_blob,
+                    floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
+  // Blobs may have been the cause as well as the order: a quarter of their error with each raise.
+  plan.min_half_width *= std::exp2(0.5 * n_raises);
+  if (plan.min_half_width > 0.0)
+    plan.blob_error = excess_of(targets) * floor_factor(options) * std::pow(max_blob / plan.min_half_width, 4);
+  return plan;
+}
+
+std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
+  const char* const field = options.far_field == FarField::harmonic    ? "harmonic"
+                            : options.far_field == FarField::stokeslet ? "Stokeslet"
+                                                                       : "regularized";
+  std::string text =
+      fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf", field,
+                  plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
+  if (plan.min_half_width > 0.0)
+    text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
+  text += fmt::format(", error of at most {:.1g} expected", plan.expected_error);
+  if (plan.blob_error > 0.0) text += fmt::format(" by the order and {:.1g} by the blobs", plan.blob_error);
+  return text + fmt::format(", {:g} allowed", options.tolerance);
+}
+
+double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric) {
+  // Nanoseconds on one core with wide vectors; only their ratios matter.
+  const double near_pair = is_symmetric ? plan.near_in_single ? 0.35 : 0.68 : plan.near_in_single ? 0.40 : 0.75;
+  const double surface_pair = plan.far_in_single ? 0.45 : 0.85;
+  const double product = plan.far_in_single ? 1.0 / 60.0 : 1.0 / 30.0;  // per multiplication and addition, times two
+  const double transfer_work = 0.4;  // of thin factors, over that of the whole matrix
+  const double direct_pair = is_symmetric ? 0.63 : 0.77;
+  const double n_surface = 6.0 * (plan.order - 1) * (plan.order - 1) + 2.0;
+  const double rank = plan.rank;
+  const double fmm = near_pair * work.near_pairs + surface_pair * n_surface * (work.n_sources + work.n_targets) +
+                     8.0 * product *
+                         (rank * rank * (transfer_work * work.far_pairs + 2.0 * work.n_boxes) +
+                          2.0 * rank * n_surface * work.n_boxes) +
+                     40.0 * (work.n_sources + work.n_targets) + 2e4;
+  return fmm / (direct_pair * work.n_sources * work.n_targets);
+}
+
+}  // namespace skein

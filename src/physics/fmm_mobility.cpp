@@ -1,0 +1,156 @@
+#include <skein/core/error.hpp>
+#include <skein/fmm/fmm_sum.hpp>
+#include <skein/physics/fmm_mobility.hpp>
+
+#include "kernels/node_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace skein {
+namespace {
+
+/// Errors below this part of the velocities that the sum is added to are rounding: of fibers at rest in a flow.
+constexpr double rounding = 1e-12;
+
+constexpr double min_fmm_pairs = 5e5;  ///< fewer are summed directly before a tree is built
+
+/// 2-norms at the compared targets.
+struct Comparison {
+  double difference = 0.0, size = 0.0;
+  double relative() const { return size > 0.0 ? difference / size : difference; }
+};
+
+Comparison compare(const double viscosity, const Sources& sources, const ConstVectors& target,
+                   const FmmSum& approximate, const EvenSample& sample) {
+  const Vectors checked = to_device("checked_target", read_sample<ExecSpace>(ExecSpace(), target, sample));
+  const Vectors exact("checked_velocity", sample.n_chosen);
+  DirectMobility(viscosity, Precision::in_double).add_velocity(sources, checked, exact);
+  const std::vector<Vec3> got = approximate.sample(sample), wanted = to_host(exact);
+  Comparison sum;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    const Vec3 u = wanted[i], d = got[i] - u;
+    sum.difference += dot(d, d);
+    sum.size += dot(u, u);
+  }
+  return {std::sqrt(sum.difference), std::sqrt(sum.size)};
+}
+
+double norm_at(const Vectors& velocity, const EvenSample& sample) {
+  double sum = 0.0;
+  for (const Vec3 u : read_sample<ExecSpace>(ExecSpace(), velocity, sample)) sum += dot(u, u);
+  return std::sqrt(sum);
+}
+
+Precision precision_of_direct_sums(const FmmOptions& options) {
+  return options.precision == FmmPrecision::in_single ? Precision::in_single : Precision::in_double;
+}
+
+FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
+  return are_same_nodes(sources.position, target) ? FmmTargets::at_sources : FmmTargets::apart;
+}
+
+}  // namespace
+
+FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
+    : viscosity_(viscosity),
+      options_(options),
+      direct_(viscosity, precision_of_direct_sums(options)),
+      sum_(make_fmm_sum(options.path)) {
+  SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
+  if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);
+}
+
+FmmMobility::~FmmMobility() = default;
+
+const FmmStatistics& FmmMobility::statistics() const { return sum_->statistics; }
+
+void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
+  SKEIN_REQUIRE(
+      sources.position.extent(0) == sources.force.extent(0) && sources.position.extent(0) == sources.blob.extent(0),
+      "positions, forces and blobs of the sources differ in number");
+  SKEIN_REQUIRE(target.extent(0) == velocity.extent(0), "targets and velocities differ in number");
+  const bool is_checked = options_.check_every > 0 && n_evaluations_ % options_.check_every == 0;
+  ++n_evaluations_;
+  if (sources.position.extent(0) == 0 || target.extent(0) == 0) return;
+  const double n_pairs = static_cast<double>(sources.position.extent(0)) * static_cast<double>(target.extent(0));
+  pairs_ += n_pairs;
+  record_.order = 0;
+  sum_->statistics.used_direct_sum = true;
+  const FmmTargets targets = place_of(sources, target);
+  if (sums_directly(n_pairs, targets)) return direct_.add_velocity(sources, target, velocity);
+
+  if (!sum_->take(sources, target)) return Kokkos::deep_copy(velocity, std::numeric_limits<double>::quiet_NaN());
+  while (evaluate(targets))
+    if (!is_checked || passes_check(sources, target, velocity)) {
+      ++record_.n_approximate;
+      record_.order = sum_->statistics.plan.order;
+      return sum_->add_to(velocity);
+    }
+  direct_.add_velocity(sources, target, velocity);
+}
+
+bool FmmMobility::sums_directly(const double n_pairs, const FmmTargets targets) const {
+  return options_.direct_when_cheaper && (n_pairs < min_fmm_pairs || needs_direct_sum(options_, targets));
+}
+
+bool FmmMobility::evaluate(const FmmTargets targets) {
+  const FmmPlan plan = choose_fmm_plan(options_, sum_->largest_blob(), raised_order_, targets);
+  const bool is_done = sum_->compute(options_, plan, viscosity_);
+  sum_->statistics.used_direct_sum = !is_done;
+  return is_done;
+}
+
+bool FmmMobility::passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
+  const EvenSample sample(target.extent_int(0), options_.n_checked_targets);
+  const Comparison comparison = compare(viscosity_, sources, target, *sum_, sample);
+  if (comparison.difference < rounding * norm_at(velocity, sample)) return true;
+  record_.last = comparison.relative();
+  record_.largest = std::isnan(record_.largest) ? record_.last : std::fmax(record_.largest, record_.last);
+  ++record_.n_checks;
+  if (!(record_.last > options_.tolerance)) return true;  // not a number: the time step finds out and names the node
+  ++record_.n_misses;
+  const int order = sum_->statistics.plan.order;
+  const std::string miss = fmt::format(
+      "the fast multipole method at order {} misses tolerance = {:g}: its error at {} checked targets is {:.2g}", order,
+      options_.tolerance, sample.n_chosen, record_.last);
+  const int next_order = choose_fmm_plan(options_, 0.0, order + 1).order;
+  if (options_.on_miss == OnMiss::stop || next_order <= order)
+    throw Error(ExitCode::numerical, miss + "; raise the tolerance or use method = \"direct\"");
+  messages_.push_back(fmt::format("{}; order {} from here on", miss, next_order));
+  raised_order_ = next_order;
+  return false;
+}
+
+double FmmMobility::measure_error(const Sources& sources, const ConstVectors& target, const int n_sample) {
+  if (sources.position.extent(0) == 0 || target.extent(0) == 0) return 0.0;
+  sum_->take(sources, target);
+  if (!evaluate(place_of(sources, target))) return 0.0;
+  return compare(viscosity_, sources, target, *sum_, {target.extent_int(0), n_sample}).relative();
+}
+
+void FmmMobility::visit_memory(MemoryVisitor& visitor) {
+  visitor.count("mobility.raised_order", raised_order_);
+  visitor.integer("mobility.evaluations", n_evaluations_);
+  visitor.count("mobility.order", record_.order);
+  visitor.number("mobility.last_error", record_.last);
+  visitor.number("mobility.largest_error", record_.largest);
+  visitor.integer("mobility.checks", record_.n_checks);
+  visitor.integer("mobility.misses", record_.n_misses);
+  visitor.integer("mobility.approximate", record_.n_approximate);
+}
+
+std::vector<std::string> FmmMobility::take_messages() { return std::exchange(messages_, {}); }
+
+std::string FmmMobility::describe() const {
+  if (options_.direct_when_cheaper && needs_direct_sum(options_))
+    return fmt::format("direct sum: tolerance {:g} is below what the fast multipole method promises",
+                       options_.tolerance);
+  const FmmStatistics& last = sum_->statistics;
+  return describe_fmm_plan(options_, last.n_boxes > 0 ? last.plan : choose_fmm_plan(options_, 0.0, raised_order_));
+}
+
+}  // namespace skein

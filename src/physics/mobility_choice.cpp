@@ -1,0 +1,137 @@
+#include <skein/fibers/fiber.hpp>
+#include <skein/physics/mobility_choice.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace skein {
+namespace {
+
+/// Below this the fast multipole method gains less than a factor of two, most of it by single precision (bench_fmm
+/// crossover), and a direct sum is exact.
+constexpr double least_fmm_nodes = 1500;
+
+/// Leaves side by side, of which the first and the last do not touch.
+constexpr double least_cells = 3.0;
+
+FmmOptions make_fmm_options(const HydrodynamicsConfig& config) {
+  FmmOptions options;
+  options.tolerance = config.tolerance;
+  options.far_field = config.far_field == "stokeslet"     ? FarField::stokeslet
+                      : config.far_field == "regularized" ? FarField::regularized
+                                                          : FarField::harmonic;
+  options.order = config.order;
+  options.leaf_size = config.leaf_size;
+  options.precision = config.precision == "double"   ? FmmPrecision::in_double
+                      : config.precision == "single" ? FmmPrecision::in_single
+                                                     : FmmPrecision::automatic;
+  options.check_every = config.check_every;
+  options.on_miss = config.on_miss == "stop" ? OnMiss::stop : OnMiss::raise_order;
+  return options;
+}
+
+struct Size {
+  double n_nodes = 0.0;
+  double extent = 0.0;  ///< longest side of the box about all fibers at the start, length
+  double max_blob = 0.0;
+  bool has_equal_blobs = true;
+};
+
+Size measure_size(const SceneConfig& scene) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Size size;
+  double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
+  for (const Fiber& fiber : make_fibers(scene.fibers)) {
+    const FiberConfig& config = fiber.config;
+    size.n_nodes += static_cast<double>(config.sections) * config.nodes_per_section;
+    size.max_blob = std::max(size.max_blob, config.blob);
+    size.has_equal_blobs &= config.blob == scene.fibers.front().blob;
+    const Vec3 half = (0.5 * fiber.length() / norm(config.direction)) * config.direction;
+    const double at[3] = {config.center.x, config.center.y, config.center.z};
+    const double reach[3] = {std::abs(half.x), std::abs(half.y), std::abs(half.z)};
+    for (int c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], at[c] - reach[c] - config.radius);
+      high[c] = std::max(high[c], at[c] + reach[c] + config.radius);
+    }
+  }
+  for (int c = 0; c < 3; ++c) size.extent = std::max(size.extent, high[c] - low[c]);
+  return size;
+}
+
+/// Leaves as large as the blobs need leave nothing far from anything else: in words, or empty.
+std::string find_lack_of_far_field(const FmmOptions& options, const Size& size) {
+  const double half_width = smallest_half_width(options, size.max_blob);
+  if (size.extent >= 2.0 * least_cells * half_width) return {};
+  return fmt::format(
+      "with blobs of {:g} a tolerance of {:g} needs leaves of half-width {:.3g} or more, and all nodes lie within "
+      "{:.3g}: "
+      "no leaf is far from another",
+      size.max_blob, options.tolerance, half_width, size.extent);
+}
+
+}  // namespace
+
+MobilityChoice choose_mobility(const SceneConfig& scene) {
+  const HydrodynamicsConfig& config = scene.hydrodynamics;
+  MobilityChoice choice;
+  choice.precision = config.precision == "single" ? Precision::in_single : Precision::in_double;
+  choice.fmm = make_fmm_options(config);
+  choice.is_direct = config.method == "direct";
+  if (config.method != "auto") return choice;
+
+  choice.fmm.direct_when_cheaper = true;
+  const Size size = measure_size(scene);
+  choice.is_direct = true;
+  if (size.n_nodes < least_fmm_nodes) {
+    choice.reason = fmt::format("chosen because it is exact, and below {:g} nodes little would be gained by any other",
+                                least_fmm_nodes);
+  } else if (needs_direct_sum(choice.fmm)) {
+    choice.reason = fmt::format("chosen because tolerance = {:g} is below what the fast multipole method promises",
+                                config.tolerance);
+  } else if (const std::string lack = find_lack_of_far_field(choice.fmm, size);
+             scene.fibers.size() == 1 && !lack.empty()) {
+    choice.reason = "chosen because " + lack;
+  } else {
+    choice.is_direct = false;
+    choice.reason =
+        fmt::format("chosen for {:g} nodes; a direct sum wherever the tree shows that it costs less", size.n_nodes);
+  }
+  return choice;
+}
+
+std::string describe_choice(const MobilityChoice& choice, const SceneConfig& scene) {
+  std::string text = choice.is_direct
+                         ? DirectMobility(scene.fluid.viscosity, choice.precision).describe()
+                         : describe_fmm_plan(choice.fmm, choose_fmm_plan(choice.fmm, measure_size(scene).max_blob, 0));
+  if (!choice.is_direct)
+    text += choice.fmm.check_every > 0 ? fmt::format("; checked every {} evaluations", choice.fmm.check_every)
+                                       : std::string("; never checked");
+  if (!choice.reason.empty()) text += "; " + choice.reason;
+  return text;
+}
+
+std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene) {
+  const HydrodynamicsConfig& config = scene.hydrodynamics;
+  if (config.method == "direct") return {};
+  const FmmOptions options = make_fmm_options(config);
+  const Size size = measure_size(scene);
+  const bool falls_back = config.method == "auto" && config.precision != "single" && needs_direct_sum(options);
+  std::vector<KeyProblem> problems;
+  for (const OptionProblem& problem : find_fmm_problems(options))
+    if (!(falls_back && problem.option == "tolerance"))
+      problems.push_back({"hydrodynamics." + problem.option, "hydrodynamics." + problem.message});
+  if (options.far_field == FarField::regularized && !size.has_equal_blobs)
+    problems.push_back(
+        {"hydrodynamics.far_field",
+         "hydrodynamics.far_field = \"regularized\" needs one blob for all fibers; \"harmonic\" does not"});
+  if (const std::string lack = find_lack_of_far_field(options, size);
+      config.method == "fmm" && problems.empty() && !lack.empty())
+    problems.push_back(
+        {"hydrodynamics.tolerance", "hydrodynamics.tolerance: " + lack + "; raise it, or use method = \"direct\""});
+  return problems;
+}
+
+}  // namespace skein

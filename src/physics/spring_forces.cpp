@@ -1,0 +1,106 @@
+#include <skein/core/error.hpp>
+#include <skein/physics/spring_forces.hpp>
+
+#include "device_list.hpp"
+#include "kernels/spring_force.hpp"
+#include "kernels/spring_strain.hpp"
+#include "kernels/spring_tangent.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace skein {
+namespace {
+
+/// Appends `count` times the index of the fiber.
+void append_index(std::vector<int>& fiber_of, const int fiber, const int count) {
+  fiber_of.insert(fiber_of.end(), count, fiber);
+}
+
+SpringArrays<ExecSpace> make_arrays(const std::vector<SpringNetwork>& networks) {
+  std::vector<FiberSprings> fibers;
+  std::vector<int> fiber_of_node, fiber_of_section, fiber_of_tile;
+  std::vector<double> stiffness, inverse_rest_length, section_factor;
+  int reach = 0;
+  bool has_wide_sections = false;
+
+  for (const SpringNetwork& network : networks) {
+    const SpringStencil& stencil = network.stencil;
+    const int index = static_cast<int>(fibers.size());
+    SKEIN_REQUIRE(network.first_node == static_cast<int>(fiber_of_node.size()),
+                  "fibers follow each other without gaps");
+    fibers.push_back({.first_node = network.first_node,
+                      .first_section = static_cast<int>(fiber_of_section.size()),
+                      .first_tile = static_cast<int>(fiber_of_tile.size()),
+                      .first_entry = static_cast<int>(stiffness.size()),
+                      .n_sections = network.n_sections,
+                      .nodes_per_section = stencil.nodes_per_section,
+                      .reach = stencil.reach});
+    append_index(fiber_of_node, index, network.n_nodes());
+    append_index(fiber_of_section, index, network.n_sections);
+    append_index(fiber_of_tile, index, math::ceil_div(network.n_sections, sections_per_tile));
+    for (int section = 0; section < network.n_sections; ++section) section_factor.push_back(network.factor(section, 0));
+    reach = std::max(reach, stencil.reach);
+    has_wide_sections = has_wide_sections || stencil.nodes_per_section > max_tile_nodes;
+    for (std::size_t entry = 0; entry < stencil.stiffness.size(); ++entry) {
+      const bool is_spring = stencil.stiffness[entry] > 0.0;
+      stiffness.push_back(is_spring ? stencil.stiffness[entry] : 0.0);
+      // A node's spring to itself has no length; any finite number serves.
+      inverse_rest_length.push_back(is_spring ? 1.0 / stencil.rest_length[entry] : 1.0);
+    }
+  }
+
+  SpringArrays<ExecSpace> arrays;
+  arrays.fiber = copy_to_device("skein::spring_fibers", fibers);
+  arrays.fiber_of_node = copy_to_device("skein::fiber_of_node", fiber_of_node);
+  arrays.fiber_of_section = copy_to_device("skein::fiber_of_section", fiber_of_section);
+  arrays.fiber_of_tile = copy_to_device("skein::fiber_of_tile", fiber_of_tile);
+  arrays.stiffness = to_device("skein::spring_stiffness", stiffness);
+  arrays.inverse_rest_length = to_device("skein::inverse_rest_length", inverse_rest_length);
+  arrays.section_factor = to_device("skein::section_factor", section_factor);
+  arrays.has_wide_sections = has_wide_sections;
+  if (on_host<ExecSpace>) arrays.reaction = Vectors("skein::spring_reaction", reach * fiber_of_node.size());
+  return arrays;
+}
+
+}  // namespace
+
+SpringForces::SpringForces(const std::vector<Fiber>& fibers) : SpringForces(make_spring_networks(fibers)) {}
+
+SpringForces::SpringForces(const std::vector<SpringNetwork>& networks)
+    : springs_(std::make_unique<SpringArrays<ExecSpace>>(make_arrays(networks))) {
+  for (const SpringNetwork& network : networks) n_sections_.push_back(network.n_sections);
+  section_energy_ = Scalars("skein::section_energy", std::accumulate(n_sections_.begin(), n_sections_.end(), 0));
+}
+
+SpringForces::~SpringForces() = default;
+SpringForces::SpringForces(SpringForces&&) noexcept = default;
+SpringForces& SpringForces::operator=(SpringForces&&) noexcept = default;
+
+void SpringForces::compute_forces(const ConstVectors& position, const Vectors& force) const {
+  compute_spring_force<ExecSpace>(ExecSpace(), *springs_, position, force);
+}
+
+void SpringForces::compute_force_changes(const ConstVectors& position, const ConstVectors& displacement,
+                                         const Vectors& change) const {
+  compute_spring_force_change<ExecSpace>(ExecSpace(), *springs_, position, displacement, change);
+}
+
+double SpringForces::compute_largest_strain(const ConstVectors& position) const {
+  return skein::compute_largest_strain<ExecSpace>(ExecSpace(), *springs_, position);
+}
+
+std::vector<double> SpringForces::compute_energies(const ConstVectors& position) const {
+  compute_section_energy<ExecSpace>(ExecSpace(), *springs_, position, section_energy_);
+  const std::vector<double> section_energy = to_host(section_energy_);
+
+  std::vector<double> energy;
+  auto section = section_energy.begin();
+  for (const int n_sections : n_sections_) {
+    energy.push_back(std::accumulate(section, section + n_sections, 0.0));
+    section += n_sections;
+  }
+  return energy;
+}
+
+}  // namespace skein

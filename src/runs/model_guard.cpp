@@ -1,0 +1,71 @@
+#include "runs/model_guard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace skein {
+
+ModelGuard::ModelGuard(const std::vector<Fiber>& fibers, const bool has_repulsion) : has_repulsion_(has_repulsion) {
+  for (const Fiber& fiber : fibers) {
+    spacing_.push_back(fiber.spacing());
+    blob_ = std::max(blob_, fiber.config.blob);
+  }
+}
+
+std::vector<std::string> ModelGuard::look(const StepRecord& record, const double largest_strain) {
+  std::vector<std::string> news;
+  const auto meet = [&](const Kind kind, const bool is_worse, const double value, const std::string& sentence) {
+    if (n_steps_[kind] == 0 || is_worse) worst_[kind] = value;
+    if (n_steps_[kind]++ == 0)
+      news.push_back(fmt::format("warning: t = {:.6g}, step {}: {}", record.time, record.step, sentence));
+  };
+  double sharpest = 0.0;
+  std::size_t sharpest_fiber = 0;
+  for (std::size_t f = 0; f < spacing_.size(); ++f)
+    if (record.curvature_max[f] * spacing_[f] > sharpest) {
+      sharpest = record.curvature_max[f] * spacing_[f];
+      sharpest_fiber = f;
+    }
+  if (sharpest > 1.0)
+    meet(sharp_hook, sharpest > worst_[sharp_hook], sharpest,
+         fmt::format(
+             "fiber {} is bent to a radius of {:.3g}, less than the distance of its sections, {:.3g}: the bend is "
+             "not resolved; take more nodes per section, which brings sections closer",
+             sharpest_fiber, 1.0 / record.curvature_max[sharpest_fiber], spacing_[sharpest_fiber]));
+  if (largest_strain > strain_limit)
+    meet(strained_spring, largest_strain > worst_[strained_spring], largest_strain,
+         fmt::format(
+             "a spring is strained by {:.0f} %: springs this weak against the flow no longer act as a solid rod; "
+             "take a larger spring_stiffness",
+             100.0 * largest_strain));
+  if (record.smallest_gap < blob_)
+    meet(contact, record.smallest_gap < worst_[contact] * blob_, record.smallest_gap / blob_,
+         fmt::format("surfaces are {:.3g} apart, less than a blob, {:.3g}: {}", record.smallest_gap, blob_,
+                     has_repulsion_ ? "the repulsion is weak here; take a larger repulsion.strength"
+                                    : "nothing keeps them from passing through each other; a [repulsion] would"));
+  return news;
+}
+
+std::string ModelGuard::describe() const {
+  std::string text;
+  const auto add = [&](const Kind kind, const std::string& what) {
+    if (n_steps_[kind] > 0)
+      text += fmt::format("{}{} steps with {}", text.empty() ? "beyond what the model resolves: " : "; ",
+                          n_steps_[kind], what);
+  };
+  add(sharp_hook, fmt::format("bends down to {:.2g} of the sections' distance", 1.0 / worst_[sharp_hook]));
+  add(strained_spring, fmt::format("springs strained by up to {:.0f} %", 100.0 * worst_[strained_spring]));
+  add(contact, fmt::format("gaps down to {:.2g} blobs", worst_[contact]));
+  return text;
+}
+
+void ModelGuard::visit_memory(MemoryVisitor& visitor) {
+  const char* names[n_kinds] = {"guard.sharp_hook", "guard.strained_spring", "guard.contact"};
+  for (int kind = 0; kind < n_kinds; ++kind) {
+    visitor.integer(std::string(names[kind]) + ".steps", n_steps_[kind]);
+    visitor.number(std::string(names[kind]) + ".worst", worst_[kind]);
+  }
+}
+
+}  // namespace skein

@@ -1,0 +1,21 @@
+#include "runs/placed_scene.hpp"
+
+#include <skein/core/error.hpp>
+#include <skein/fibers/placement.hpp>
+#include <skein/physics/mobility_choice.hpp>
+
+namespace skein {
+
+SceneReading read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  SceneReading reading = read_scene(file, overrides, find_mobility_problems);
+  try {
+    reading.config = place_fibers(reading.config);
+    check_overlap(make_fibers(reading.config.fibers), reading.config.seed);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::scene_error) throw;
+    throw SceneError(file.string(), {Problem{{file.string(), 0, 0, -1}, error.what(), ""}});
+  }
+  return reading;
+}
+
+}  // namespace skein

@@ -1,0 +1,109 @@
+#include "runs/run_description.hpp"
+
+#include <skein/arrays/runtime.hpp>
+#include <skein/core/duration.hpp>
+#include <skein/core/version.hpp>
+#include <skein/fibers/calibration.hpp>
+#include <skein/fibers/spring_network.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/mobility_choice.hpp>
+#include <skein/solvers/rkc2.hpp>
+
+#include "runs/scene_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein {
+namespace {
+
+/// Evaluations a run will take. For RKC2 an upper estimate: error control that never finds the fiber at rest, with the
+/// local error of a rigid turn, (rate dt)^2 rate / 30 of the length per unit time.
+double expect_evaluations(const SceneConfig& scene, const double spectral_radius) {
+  const double end = scene.time.end;
+  if (scene.time.method == "euler") return end / scene.time.step;
+  const double rate = std::max(1.0 / make_background_flow(scene.flows)->time_scale(), 1e-3);
+  const double dt = scene.time.step > 0.0
+                        ? scene.time.step
+                        : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
+  if (scene.time.method == "rk4" || scene.time.method == "bs3")
+    return 4.0 * end * std::max(1.0 / dt, spectral_radius / 2.5);
+  return end / dt * Rkc2::stages_for(dt, Rkc2::spectral_margin * spectral_radius);
+}
+
+/// Of a fiber's springs, force.
+double find_largest_stiffness(const FiberConfig& fiber) {
+  double factor = 0.0;
+  for (const ProfilePoint& point : fiber.stiffness_profile) factor = std::max(factor, point.factor);
+  return fiber.spring_stiffness * factor * std::max(fiber.stiffness_within_sections, fiber.stiffness_between_sections);
+}
+
+/// Of the spring-mobility operator, 1 / time: 1.1e4 for the paper's fiber, and in proportion to k / (viscosity R^2)
+/// for other fibers of its proportions.
+double guess_spectral_radius(const SceneConfig& scene) {
+  double radius = 0.0;
+  for (const FiberConfig& fiber : scene.fibers)
+    radius = std::max(radius, 1.1057e4 * (find_largest_stiffness(fiber) / 0.0112) / scene.fluid.viscosity *
+                                  std::pow(0.005 / fiber.radius, 2) * fiber.nodes_per_section / 18.0);
+  return radius;
+}
+
+}  // namespace
+
+TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text,
+                                 const std::vector<Fiber>& fibers) {
+  TrajectoryLayout layout;
+  layout.fibers = fibers;
+  layout.blobs = make_blobs(fibers);
+  for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
+  const auto flow = make_background_flow(scene.flows);
+  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
+                       {"version", version()},      {"commit", commit()},
+                       {"build", describe_build()}, {"backend", describe_backend()},
+                       {"flow", flow->describe()},  {"integrator", scene.time.method}};
+  const double rate = flow->typical_rate();
+  std::vector<double> length, rigidity, number, number_slender;
+  for (const Fiber& fiber : fibers) {
+    const BeamStiffness beam = measure_beam_stiffness(fiber);
+    length.push_back(fiber.length());
+    rigidity.push_back(beam.bending);
+    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
+    number.push_back(numbers.with_log_4e_over_rho2);
+    number_slender.push_back(numbers.with_minus_log_rho2_e);
+  }
+  layout.parameters = {{"fiber_length", {length, "length"}},
+                       {"bending_rigidity", {rigidity, "force*length^2"}},
+                       {"viscosity", {scene.fluid.viscosity, "force*time/length^2"}},
+                       {"shear_rate", {rate, "1/time"}},
+                       {"elasto_viscous_number_log_4e_over_rho2", {number, "1"}},
+                       {"elasto_viscous_number_minus_log_rho2_e", {number_slender, "1"}}};
+  return layout;
+}
+
+std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
+                         const Integrator& integrator, const EvaluationCost& cost) {
+  const double n_nodes = count_nodes(fibers);
+  const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
+  const double bytes = n_frames * n_nodes * (scene.output.precision == "single" ? 12.0 : 24.0);
+  const double radius = guess_spectral_radius(scene);
+  const double evaluations = expect_evaluations(scene, radius);
+  std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
+  text += describe_scene(scene);
+  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", dynamics.flow().describe(),
+                      describe_choice(choose_mobility(scene), scene), integrator.describe(), scene.time.end);
+  if (cost.direct_seconds > 0.0)
+    text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
+                        cost.direct_seconds / cost.seconds);
+  text +=
+      fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
+                  1e3 * cost.seconds, evaluations, format_duration(evaluations * cost.seconds), n_frames, 1e-6 * bytes);
+  if (scene.time.method == "euler" && scene.time.step * radius > 2.0)
+    text += fmt::format(
+        "\nwarning: the step times the spectral radius (about {:.3g}) is {:.3g}; forward Euler is unstable above 2",
+        radius, scene.time.step * radius);
+  return text;
+}
+
+}  // namespace skein

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <skein/core/error.hpp>
+#include <skein/scene/scene_config.hpp>
+
+#include <filesystem>
+
+namespace skein {
+
+/// Brings the run of a scene in a folder to its end: begins it, goes on with it from its last checkpoint, or finds that
+/// nothing is left to do. Needs Kokkos.
+/// @param max_walltime  seconds since the program began
+/// @returns done, or stopped on request
+/// @throws Error(cannot_create) if the folder holds a run of another scene, or anything but a run
+ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& folder, double max_walltime, bool quiet);
+
+}  // namespace skein

@@ -1,0 +1,87 @@
+#include "runs/scene_summary.hpp"
+
+#include <skein/fibers/calibration.hpp>
+#include <skein/fibers/fiber.hpp>
+#include <skein/fibers/spring_network.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/section_repulsion.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace skein {
+namespace {
+
+constexpr std::size_t max_described = 10;  // fibers
+
+std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const int index) {
+  const FiberConfig& config = fiber.config;
+  const BeamStiffness beam = measure_beam_stiffness(fiber);
+  std::string text = fmt::format(
+      "fiber {}: {} sections of {} nodes, length {:.6g}, radius {:g}, spacing {:.6g}, {} springs\n"
+      "  EI {:.6g} (infinite fiber {:.6g}), EA {:.6g}, GJ {:.6g}\n"
+      "  rho = R/L {:.4g}, blob/spacing {:.3g}, blob/radius {:.3g}\n",
+      index, config.sections, config.nodes_per_section, fiber.length(), config.radius, fiber.spacing(),
+      count_springs(make_spring_network(fiber)), beam.bending, beam.infinite_bending, beam.axial, beam.torsional,
+      config.radius / fiber.length(), config.blob / fiber.spacing(), config.blob / config.radius);
+  const auto [softest, stiffest] =
+      std::minmax_element(config.stiffness_profile.begin(), config.stiffness_profile.end(),
+                          [](const ProfilePoint& a, const ProfilePoint& b) { return a.factor < b.factor; });
+  if (softest->factor != stiffest->factor)
+    text += fmt::format(
+        "  the stiffness varies along the fiber, from {:g} to {:g} times spring_stiffness: means are given\n",
+        softest->factor, stiffest->factor);
+  const double rate = make_background_flow(scene.flows)->typical_rate();
+  if (rate > 0.0) {
+    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
+    text += fmt::format(
+        "  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
+        "-ln(rho^2 e)\n",
+        numbers.with_log_4e_over_rho2, numbers.with_minus_log_rho2_e);
+  }
+  return text;
+}
+
+// The flow presses with a straight piece of fiber; those that it can bend give way. At contact: 32/15 strength
+// sqrt(R/range) a length side by side, 4 pi/3 strength R where fibers cross.
+std::string describe_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+  const double strength = scene.repulsion.strength, range = find_repulsion_range(scene.repulsion, fibers);
+  if (strength == 0.0) return {};
+  const double rate = make_background_flow(scene.flows)->typical_rate();
+  double radius = 0.0, length = 0.0;
+  for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f) {
+    radius = std::max(radius, fibers[f].config.radius);
+    const double straight =
+        4.0 * std::pow(measure_beam_stiffness(fibers[f]).bending / (scene.fluid.viscosity * rate), 0.25);
+    length = std::max(length, std::min(fibers[f].length(), straight));
+  }
+  std::string text = fmt::format(
+      "repulsion: of strength {:g} where gaps are below {:g}; fibers that touch push with about {:.3g} a length side "
+      "by "
+      "side, with {:.3g} where they cross",
+      strength, range, 32.0 / 15.0 * strength * std::sqrt(radius / range),
+      4.0 * std::numbers::pi / 3.0 * strength * radius);
+  if (rate > 0.0)
+    text += fmt::format("; the flow presses crossing ones with about {:.2g}",
+                        0.5 * scene.fluid.viscosity * rate * length * length);
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string describe_scene(const SceneConfig& scene) {
+  const auto fibers = make_fibers(scene.fibers);
+  std::string text;
+  if (!scene.title.empty()) text += scene.title + "\n";
+  text += fmt::format("{} fiber{}, {} nodes\n", fibers.size(), fibers.size() == 1 ? "" : "s", count_nodes(fibers));
+  for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f)
+    text += describe_fiber(scene, fibers[f], static_cast<int>(f));
+  if (fibers.size() > max_described) text += fmt::format("... and {} more\n", fibers.size() - max_described);
+  return text + describe_repulsion(scene, fibers);
+}
+
+}  // namespace skein

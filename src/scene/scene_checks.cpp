@@ -1,0 +1,193 @@
+#include "scene_checks.hpp"
+
+#include "scene_value.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace skein {
+namespace {
+
+constexpr double n_nodes_allowed = 1e8;
+constexpr double n_copies_allowed = 1e4;
+constexpr double n_frames_allowed = 1e7;
+constexpr double n_steps_allowed = 1e12;
+
+// The chord between neighbouring nodes of a section, which is also the distance of sections.
+double compute_node_spacing(const FiberConfig& fiber) {
+  return 2.0 * fiber.radius * std::sin(std::numbers::pi / fiber.nodes_per_section);
+}
+
+void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
+                 std::vector<Problem>& problems, std::vector<Problem>& warnings) {
+  // Components so small that their squares vanish cannot be normalized either.
+  if (!(norm(fiber.direction) >= 1e-100)) {
+    reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
+  }
+  const double spacing = compute_node_spacing(fiber);
+  if (fiber.blob > fiber.radius) {
+    reader.add(warnings, path + ".blob",
+               fmt::format("{}.blob {} is above the radius {}: the fiber is too thick in the fluid", path,
+                           format_number(fiber.blob), format_number(fiber.radius)));
+  } else if (fiber.blob < 0.5 * spacing) {
+    reader.add(warnings, path + ".blob",
+               fmt::format("{}.blob {} is below half of the node spacing {:.4g}: the surface leaks", path,
+                           format_number(fiber.blob), spacing));
+  }
+}
+
+void check_profile(const std::vector<ProfilePoint>& profile, const std::string& path, const SceneReader& reader,
+                   std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    const bool is_ordered = i == 0 || profile[i].position > profile[i - 1].position;
+    if (is_ordered && profile[i].position <= 1.0 && profile[i].factor >= 1e-6) continue;
+    reader.add(problems, path,
+               fmt::format("{}: pair {} is [{}, {}]; positions grow from 0 to 1, factors are above 0", path, i,
+                           format_number(profile[i].position), format_number(profile[i].factor)));
+    return;
+  }
+}
+
+void check_flow(const FlowConfig& flow, const std::string& path, const SceneReader& reader,
+                std::vector<Problem>& problems) {
+  if (flow.stop > 0.0 && flow.stop < flow.start)
+    reader.add(
+        problems, path + ".stop",
+        fmt::format("{0}.stop {1} is before {0}.start {2}", path, format_number(flow.stop), format_number(flow.start)));
+}
+
+void check_placement(const PlacementConfig& placement, const SceneReader& reader, std::vector<Problem>& problems) {
+  const Vec3 n = placement.grid;
+  if (n.x != std::floor(n.x) || n.y != std::floor(n.y) || n.z != std::floor(n.z))
+    reader.add(problems, "placement.grid",
+               fmt::format("placement.grid must be three whole numbers, not {}", format_vector(n)));
+  else if (placement.kind == "grid" && n.x * n.y * n.z > n_copies_allowed)
+    reader.add(problems, "placement.grid",
+               fmt::format("placement.grid asks for {:g} fibers, more than {:g}", n.x * n.y * n.z, n_copies_allowed));
+}
+
+/// Copies that placement makes of the fiber at this place of the list.
+double count_copies(const SceneConfig& scene, const std::size_t fiber) {
+  const PlacementConfig& placement = scene.placement;
+  if (placement.kind == "as_written") return 1.0;
+  const double n_copies =
+      placement.kind == "random" ? placement.count : placement.grid.x * placement.grid.y * placement.grid.z;
+  const double n_fibers = static_cast<double>(scene.fibers.size());
+  return std::max(0.0, std::ceil((n_copies - static_cast<double>(fiber)) / n_fibers));
+}
+
+void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  double n_nodes = 0.0;
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    if (!reader.is_sound(reader.path_of("fiber", i))) return;
+    const FiberConfig& fiber = scene.fibers[i];
+    n_nodes += count_copies(scene, i) * fiber.sections * fiber.nodes_per_section;
+    if (n_nodes <= n_nodes_allowed) continue;
+    reader.add(
+        problems, reader.path_of("fiber", i) + ".sections",
+        fmt::format("with this fiber the scene has {:.3g} nodes (sections * nodes_per_section), more than {:.0e}",
+                    n_nodes, n_nodes_allowed));
+    return;
+  }
+}
+
+// Sections of one fiber repel each other from 10 radii of arclength on, and a tight bend brings these to a gap of
+// about 4. Where a range is so short that sections see less than their spacing, fibers feel rough.
+void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
+                     std::vector<Problem>& warnings) {
+  if (scene.repulsion.strength == 0.0) return;
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    if (!reader.is_sound(reader.path_of("fiber", i))) return;
+    thinnest = std::min(thinnest, scene.fibers[i].radius);
+  }
+  const double range = scene.repulsion.range;
+  constexpr double least_radii = 0.01, most_radii = 4.0;
+  if (range > 0.0 && (range < least_radii * thinnest || range > most_radii * thinnest)) {
+    reader.add(
+        problems, "repulsion.range",
+        fmt::format("repulsion.range {} is not between {:g} and {:g}, {:g} and {:g} radii of the thinnest fiber",
+                    format_number(range), least_radii * thinnest, most_radii * thinnest, least_radii, most_radii));
+    return;
+  }
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    const FiberConfig& fiber = scene.fibers[i];
+    const double spacing = compute_node_spacing(fiber);
+    const double half_width = std::sqrt(4.0 * fiber.radius * (range > 0.0 ? range : thinnest));
+    if (half_width >= spacing) continue;
+    reader.add(
+        warnings, "repulsion.range",
+        fmt::format("repulsion.range is so short that a section of {} sees others within {:.3g} of it only, less "
+                    "than their distance {:.3g}: fibers feel each other's sections one by one",
+                    reader.path_of("fiber", i), half_width, spacing));
+    return;
+  }
+}
+
+// What a key of fmm would change must not be passed over; the tolerance and the like have a meaning in every scene.
+void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneReader& reader,
+                         std::vector<Problem>& problems) {
+  if (hydrodynamics.method != "direct") return;
+  const auto reject = [&](const char* key, const int value) {
+    if (value == 0) return;
+    reader.add(
+        problems, fmt::format("hydrodynamics.{}", key),
+        fmt::format("hydrodynamics.{} {} is of the fast multipole method, and method is \"direct\"", key, value));
+  };
+  reject("order", hydrodynamics.order);
+  reject("leaf_size", hydrodynamics.leaf_size);
+}
+
+void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<Problem>& problems) {
+  if (time.method == "euler" && time.step == 0.0) {
+    reader.add(problems, "time.step", "time.step must be given and above 0: euler has no error control");
+  }
+  if (time.step > time.max_step) {
+    reader.add(
+        problems, "time.step",
+        fmt::format("time.step {} is above time.max_step {}", format_number(time.step), format_number(time.max_step)));
+  }
+  const double shortest = time.step > 0.0 ? time.step : time.max_step;
+  if (time.end / shortest > n_steps_allowed) {
+    reader.add(problems, "time.end",
+               fmt::format("time.end {} would take {:.2g} steps", format_number(time.end), time.end / shortest));
+  }
+}
+
+void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  const double n_frames = scene.time.end / scene.output.frame_interval;
+  if (n_frames <= n_frames_allowed) return;
+  reader.add(problems, "output.frame_interval",
+             fmt::format("output.frame_interval {} would make {:.2g} frames until time.end {}",
+                         format_number(scene.output.frame_interval), n_frames, format_number(scene.time.end)));
+}
+
+}  // namespace
+
+void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
+                 std::vector<Problem>& warnings) {
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
+    const std::string path = reader.path_of("fiber", i);
+    if (!reader.is_sound(path)) continue;
+    check_fiber(scene.fibers[i], path, reader, problems, warnings);
+    check_profile(scene.fibers[i].stiffness_profile, path + ".stiffness_profile", reader, problems);
+  }
+  for (std::size_t i = 0; i < scene.flows.size(); ++i) {
+    const std::string path = reader.path_of("flow", i);
+    if (reader.is_sound(path)) check_flow(scene.flows[i], path, reader, problems);
+  }
+  if (reader.is_sound("placement")) check_placement(scene.placement, reader, problems);
+  if (reader.is_sound("repulsion")) check_repulsion(scene, reader, problems, warnings);
+  check_node_count(scene, reader, problems);
+  if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
+  if (!reader.is_sound("time")) return;
+  check_time(scene.time, reader, problems);
+  if (reader.is_sound("output")) check_frame_count(scene, reader, problems);
+}
+
+}  // namespace skein

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+#include "scene_reader.hpp"
+
+#include <vector>
+
+namespace skein {
+
+/// What can only be judged from several keys together. Tables in which a key was wrong are passed over.
+void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
+                 std::vector<Problem>& warnings);
+
+}  // namespace skein

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// What a number may be. Bounds are included.
+struct Range {
+  double low, high;
+  std::string text;  ///< "above 0"; empty for any number
+};
+
+/// A key as scenes and the reference show it.
+struct Key {
+  std::string name;
+  std::string unit;     ///< empty: a pure number or no number
+  Range range;          ///< of numbers, and of each component of a vector
+  std::string meaning;  ///< half a sentence, in lower case
+};
+
+/// One of the words that a key may be.
+struct Choice {
+  std::string word;
+  std::string meaning;
+};
+
+/// A table of the scene. The top of the file has an empty name.
+struct Table {
+  std::string name;
+  bool repeatable;  ///< [[name]], once per instance
+  std::string meaning;
+  std::size_t n_instances = 1;
+};
+
+/// Sees every key of a scene in order. What reads, writes and documents scenes are visitors, so that a key is declared
+/// once, in scene_keys.cpp.
+class KeyVisitor {
+ public:
+  virtual ~KeyVisitor() = default;
+
+  virtual void begin_table(const Table& table) = 0;
+  virtual void end_table() = 0;
+  virtual void text(const Key& key, std::string& value) = 0;
+  virtual void choice(const Key& key, const std::vector<Choice>& choices, std::string& value) = 0;
+  virtual void integer(const Key& key, std::int64_t& value) = 0;
+  virtual void number(const Key& key, double& value) = 0;
+  virtual void vector(const Key& key, Vec3& value) = 0;
+  virtual void profile(const Key& key, std::vector<ProfilePoint>& value) = 0;
+
+  /// Any other integer type; the key's range keeps the value inside it.
+  template <class Integer>
+  void integer(const Key& key, Integer& value) {
+    auto wide = static_cast<std::int64_t>(value);
+    integer(key, wide);
+    value = static_cast<Integer>(wide);
+  }
+};
+
+/// Shows the visitor every table and key of a scene, [fiber] and [flow] once per instance.
+void visit_keys(KeyVisitor& visitor, SceneConfig& scene);
+
+/// "blob: what it means; unit; range; default", one line. `path` is the key's name with its table.
+std::string describe_key(const std::string& path, const Key& key, const std::string& default_value);
+
+/// `"a", "b" or "c"`.
+std::string list_choices(const std::vector<Choice>& choices);
+
+/// "[0.0, 1.0, 0.0]"
+std::string format_vector(const Vec3& vector);
+
+/// "[[0.0, 1.0], [1.0, 1.0]]"
+std::string format_profile(const std::vector<ProfilePoint>& profile);
+
+}  // namespace skein

@@ -1,0 +1,252 @@
+#include "studies/lagrone2019.hpp"
+
+#include <skein/core/error.hpp>
+#include <skein/fibers/calibration.hpp>
+#include <skein/fibers/spring_network.hpp>
+
+#include "studies/paper_run.hpp"
+#include "studies/paper_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace skein {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double straightness(const Shape& shape) { return shape.distance / shape.length; }
+double half_turns(const Shape& shape) { return shape.total_turning / std::numbers::pi; }
+double n_bends(const Shape& shape) { return static_cast<double>(shape.bends.size()); }
+
+std::vector<AcceptanceRow> compare_table1() {
+  FigureRows rows("table1");
+  const auto fiber_of = [](const PaperFiber& paper) {
+    return make_fibers(make_paper_scene(paper.sections, paper.end).fibers)[0];
+  };
+  const Fiber shortest = fiber_of(list_paper_fibers().front()), longest = fiber_of(list_paper_fibers().back());
+  rows.add("shortest length", "Table 1", compare_number(0.139, shortest.length(), 5e-4));
+  rows.add("longest length", "Table 1", compare_number(2.28, longest.length(), 5e-3));
+  rows.add("largest slenderness R/L", "Table 1",
+           compare_number(0.036, shortest.config.radius / shortest.length(), 5e-4));
+  rows.add("smallest slenderness R/L", "Table 1",
+           compare_number(0.0022, longest.config.radius / longest.length(), 5e-5));
+  rows.add("node spacing", "Table 1", compare_number(0.00174, shortest.spacing(), 5e-6));
+  rows.add("fewest nodes", "Table 1", compare_number(1440, shortest.n_nodes(), 0));
+  rows.add("most nodes", "Table 1", compare_number(23634, longest.n_nodes(), 0));
+  // 17 in its section and 18 in each neighbour: counted as what one more section adds.
+  const auto springs = [](int sections) {
+    return count_springs(make_spring_network(make_fibers(make_paper_scene(sections, 1.0).fibers)[0]));
+  };
+  rows.add("springs of an inner node", "Section 2.2",
+           compare_number(53, 17.0 + 2.0 * static_cast<double>(springs(4) - springs(3) - 153) / 18.0, 0));
+  rows.add("bending rigidity EI", "Table 1", compare_number(4.8e-6, measure_beam_stiffness(shortest).bending, 0.05e-6));
+  for (const PaperFiber& paper : list_paper_fibers()) {
+    const Fiber fiber = fiber_of(paper);
+    const double number =
+        compute_elasto_viscous_numbers(fiber, 1.0, 2.5, measure_beam_stiffness(fiber).bending).with_log_4e_over_rho2;
+    rows.add(fmt::format("mu_bar, c = ln(4e/rho^2), L = {:.3g}", fiber.length()), "Figures 2, 4, 5",
+             compare_number(paper.elasto_viscous_number, number, 0.005 * paper.elasto_viscous_number));
+  }
+  return rows.take();
+}
+
+void compare_tumbling(FigureRows& rows, const PaperRuns& runs) {
+  const PaperRun run(runs, "L0139");
+  const std::string snapshot = "Figure 2, first column";
+  rows.add("L = 0.139: angle at t = 4.95 (degrees)", snapshot, compare_number(40, run.angle(4.95), 3));
+  rows.add("L = 0.139: slight bends at t = 4.95", "Section 4", compare_number(2, run.at(4.95, n_bends), 0));
+  rows.add("L = 0.139: angle at t = 5.45 (degrees)", snapshot, compare_number(90, run.angle(5.45), 3));
+  rows.add("L = 0.139: angle at t = 5.7 (degrees)", snapshot, compare_range(90, 150, run.angle(5.7)));
+  rows.add("L = 0.139: angle at t = 7 (degrees)", snapshot, compare_range(150, 178, run.angle(7.0)));
+  rows.add("L = 0.139: angle at t = 10.75 (degrees)", snapshot, compare_number(180, run.angle(10.75), 2));
+  rows.add("L = 0.139: half period", snapshot, compare_number(10.9, run.half_period(), 0.1));
+  rows.add("L = 0.139: regime", "Section 4",
+           compare_word("tumble", run.has(11.0) ? name_of(run.summary().regime) : ""));
+  rows.add("L = 0.139: largest compression (%)", "Section 4",
+           compare_range(1, 5, run.has(11.0) ? -100.0 * run.summary().stretch_min : nan));
+}
+
+void compare_s_turn(FigureRows& rows, const PaperRuns& runs) {
+  const PaperRun run(runs, "L0196");
+  const std::string snapshot = "Figure 2, second column";
+  for (const double time : {5.65, 6.5, 7.15})
+    rows.add(fmt::format("L = 0.196: shape at t = {:g}", time), snapshot, compare_word("S", run.regime(time)));
+  rows.add("L = 0.196: end distance / length at t = 8.75", snapshot,
+           compare_range(0.99, infinity, run.at(8.75, straightness)));
+  rows.add("L = 0.196: angle at t = 13.5 (degrees)", snapshot, compare_number(180, run.angle(13.5), 2));
+  rows.add("L = 0.196: half period", snapshot, compare_number(14.0, run.half_period(), 0.5));
+  rows.add("L = 0.196: regime", "Section 4", compare_word("S", run.has(14.0) ? name_of(run.summary().regime) : ""));
+}
+
+void compare_snaking(FigureRows& rows, const PaperRuns& runs) {
+  const PaperRun run(runs, "L0523");
+  const std::string snapshot = "Figure 2, third column";
+  for (const double time : {6.25, 8.0})
+    rows.add(fmt::format("L = 0.523: hooks at t = {:g}", time), snapshot, compare_number(2, run.count_hooks(time), 0));
+  rows.add("L = 0.523: hooks near the middle at t = 10.5 (place / length)", snapshot,
+           compare_range(0.33, 0.5, run.hook_place(10.5)));
+  rows.add("L = 0.523: end distance / length at t = 12.75", snapshot,
+           compare_range(0.9, infinity, run.at(12.75, straightness)));
+  rows.add("L = 0.523: angle at t = 25 (degrees)", snapshot, compare_number(180, run.angle(25.0), 2));
+  rows.add("L = 0.523: half period", snapshot, compare_number(25, run.half_period(), 1));
+  rows.add("L = 0.523: regime", "Section 4", compare_word("snake", run.has(13.0) ? name_of(run.summary().regime) : ""));
+}
+
+std::vector<AcceptanceRow> compare_figure2(const PaperRuns& runs) {
+  FigureRows rows("figure2");
+  compare_tumbling(rows, runs);
+  compare_s_turn(rows, runs);
+  compare_snaking(rows, runs);
+  const double periods[] = {PaperRun(runs, "L0139").half_period(), PaperRun(runs, "L0196").half_period(),
+                            PaperRun(runs, "L0523").half_period()};
+  rows.add("period at 0.196 over that at 0.139: grows", "Section 4",
+           compare_range(1, infinity, periods[1] / periods[0]));
+  rows.add("period at 0.523 over that at 0.196: grows", "Section 4",
+           compare_range(1, infinity, periods[2] / periods[1]));
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure3(const PaperRuns& runs) {
+  FigureRows rows("figure3");
+  const auto add = [&](const char* name, const char* length, const char* panel, const double end, const char* wave) {
+    rows.add(fmt::format("L = {}: extrema of curvature", length), panel,
+             compare_word(wave, PaperRun(runs, name).wave(end)));
+  };
+  add("L0139", "0.139", "Figure 3 a", 11.0, "standing");
+  add("L0196", "0.196", "Figure 3 b", 14.0, "standing");
+  add("L0523", "0.523", "Figure 3 c", 13.0, "travelling");
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure4(const PaperRuns& runs) {
+  FigureRows rows("figure4");
+  const PaperRun run(runs, "L0931");
+  rows.add("L = 0.931: bent ends at t = 4.95", "Figure 4", compare_range(2, infinity, run.at(4.95, [](const Shape& s) {
+             return std::count_if(s.bends.begin(), s.bends.end(),
+                                  [](const Bend& b) { return std::abs(b.turning) > 0.6; });
+           })));
+  rows.add("L = 0.931: bends at t = 16.25: several", "Figure 4", compare_range(4, infinity, run.at(16.25, n_bends)));
+  double straightest = 0.0;
+  constexpr double folded = 8.0, end = 31.25;
+  if (run.has(end))
+    for (std::size_t i = run.frame(folded); i <= run.frame(end); ++i)
+      straightest = std::max(straightest, straightness(run.history()->shapes()[i]));
+  rows.add("L = 0.931: largest end distance / length from t = 8: never straight again", "Section 4",
+           compare_range(-infinity, 0.95, run.has(end) ? straightest : nan));
+  rows.add("L = 0.931: extrema of curvature", "Figure 3 d", compare_word("travelling", run.wave(end)));
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure5(const PaperRuns& runs) {
+  FigureRows rows("figure5");
+  const PaperRun run(runs, "L2280");
+  rows.add("L = 2.28: hooks at t = 10", "Figure 5", compare_number(2, run.count_hooks(10.0), 0));
+  rows.add("L = 2.28: bends at t = 36: many", "Figure 3 f", compare_range(6, infinity, run.at(36.0, n_bends)));
+  rows.add("L = 2.28: total turning at t = 36 (half turns)", "Figure 5",
+           compare_range(3, infinity, run.at(36.0, half_turns)));
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure6(const PaperRuns& runs) {
+  FigureRows rows("figure6");
+  const PaperRun run(runs, "L2280");
+  rows.add("L = 2.28: shape at t = 110", "Figure 6", compare_word("three-dimensional", run.regime(110.0)));
+  rows.add("L = 2.28: total turning at t = 110 (half turns)", "Figure 6, an entangled state",
+           compare_range(3, infinity, run.at(110.0, half_turns)));
+  rows.add("L = 2.28: out of the plane at t = 110, in radii", "Figure 6",
+           compare_range(1, infinity, run.at(110.0, [](const Shape& s) {
+             return s.out_of_plane / make_paper_scene(2, 1.0).fibers[0].radius;
+           })));
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure7(const PaperRuns& runs) {
+  FigureRows rows("figure7");
+  std::optional<Snaking> reference;
+  for (const auto& [name, length] : {std::pair{"L0523", "0.523"}, {"L0931", "0.931"}, {"L2280", "2.28"}}) {
+    if (runs.count(name) == 0 && reference) continue;
+    const PaperRun run(runs, name);
+    const auto snaking = run.has(0.0) ? run.summary().snaking : std::nullopt;
+    double spread = nan;
+    if (snaking) {
+      std::vector<double> radii;
+      for (const FiberEnd end : {FiberEnd::first, FiberEnd::last})
+        for (std::size_t i = run.frame(snaking->begin); i <= run.frame(snaking->end); ++i)
+          if (const auto& hook = run.history()->hooks(end)[i]) radii.push_back(hook->circle.radius);
+      const auto [low, high] = std::minmax_element(radii.begin(), radii.end());
+      spread = (*high - *low) / snaking->hook_radius;
+    }
+    rows.add(fmt::format("L = {}: hook radius {:.4g}, spread while it travels", length,
+                         snaking ? snaking->hook_radius : nan),
+             "Section 4, a fixed radius", compare_range(-infinity, 0.1, spread));
+    rows.add(fmt::format("L = {}: snaking speed {:.4g}, r^2 of the line", length, snaking ? snaking->speed : nan),
+             "Figure 3 c-e, slopes", compare_range(0.95, 1, snaking ? snaking->determination : nan));
+    if (!reference) {
+      reference = snaking;
+      continue;
+    }
+    if (!snaking) continue;
+    rows.add(fmt::format("L = {}: hook radius over that at 0.523", length), "Figure 7 b",
+             compare_number(1, snaking->hook_radius / reference->hook_radius, 0.1));
+    rows.add(fmt::format("L = {}: snaking speed over that at 0.523", length), "Figure 7 b",
+             compare_number(1, snaking->speed / reference->speed, 0.1));
+  }
+  return rows.take();
+}
+
+std::vector<AcceptanceRow> compare_figure8(const std::vector<SumTiming>& timings) {
+  FigureRows rows("figure8");
+  rows.add("nodes from which on the fast multipole method is faster", "Figure 8",
+           compare_range(-infinity, 1.7e4, find_crossover(timings)));
+  const SumTiming last = timings.empty() ? SumTiming{23634, nan, nan, nan} : timings.back();
+  rows.add(fmt::format("times faster than the direct sum, {} nodes", last.n_nodes),
+           "Section 4, computational considerations",
+           compare_range(1.6, infinity, last.direct_seconds / last.fmm_seconds));
+  rows.add("its error there", "ours: a tolerance of 1e-4", compare_range(-infinity, 1e-4, last.fmm_error));
+  return rows.take();
+}
+
+}  // namespace
+
+const std::vector<PaperFiber>& list_paper_fibers() {
+  static const std::vector<PaperFiber> fibers{{"L0139", 80, 40.0, 5.35e2, " figure2 figure3 "},
+                                              {"L0196", 113, 30.0, 1.97e3, " figure2 figure3 "},
+                                              {"L0523", 301, 26.0, 8.22e4, " figure2 figure3 figure4 figure7 "},
+                                              {"L0931", 536, 31.25, 7.51e5, " figure4 "},
+                                              {"L2280", 1313, 110.0, 2.37e7, " figure5 figure6 "}};
+  return fibers;
+}
+
+const std::vector<std::pair<std::string, std::string>>& list_paper_figures() {
+  static const std::vector<std::pair<std::string, std::string>> figures{
+      {"table1", "geometry, rigidity, elasto-viscous numbers; no runs"},
+      {"figure2", "tumbling, S-turn and snaking: lengths 0.139, 0.196, 0.523"},
+      {"figure3", "curvature in time: standing and travelling extrema"},
+      {"figure7", "radius and speed of the hooks"},
+      {"figure4", "length 0.931 to t = 31.25; minutes"},
+      {"figure5", "length 2.28 to t = 110; half an hour"},
+      {"figure6", "length 2.28 at t = 110, seen from the side: the run of figure 5"},
+      {"figure8", "times of direct sums and of the fast multipole method; no runs"}};
+  return figures;
+}
+
+std::vector<AcceptanceRow> compare_with_paper(const std::string& figure, const PaperRuns& runs,
+                                              const std::vector<SumTiming>& timings) {
+  if (figure == "table1") return compare_table1();
+  if (figure == "figure2") return compare_figure2(runs);
+  if (figure == "figure3") return compare_figure3(runs);
+  if (figure == "figure4") return compare_figure4(runs);
+  if (figure == "figure5") return compare_figure5(runs);
+  if (figure == "figure6") return compare_figure6(runs);
+  if (figure == "figure8") return compare_figure8(timings);
+  if (figure == "figure7") return compare_figure7(runs);
+  throw Error(ExitCode::usage, fmt::format("there is no figure '{}' to reproduce.", figure));
+}
+
+}  // namespace skein

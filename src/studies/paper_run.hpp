@@ -1,0 +1,87 @@
+#pragma once
+
+#include "studies/acceptance.hpp"
+#include "studies/lagrone2019.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace skein {
+
+/// Rows of one figure.
+class FigureRows {
+ public:
+  explicit FigureRows(std::string figure) : figure_(std::move(figure)) {}
+
+  void add(const std::string& quantity, const std::string& source, AcceptanceRow row) {
+    row.figure = figure_;
+    row.quantity = quantity;
+    row.source = source;
+    rows_.push_back(std::move(row));
+  }
+  std::vector<AcceptanceRow> take() { return std::move(rows_); }
+
+ private:
+  std::string figure_;
+  std::vector<AcceptanceRow> rows_;
+};
+
+/// The run of one fiber, asked about moments it may not have reached.
+class PaperRun {
+ public:
+  PaperRun(const PaperRuns& runs, const std::string& name) {
+    const auto found = runs.find(name);
+    if (found == runs.end()) return;
+    analysis_ = &found->second;
+    history_ = &analysis_->histories[0];
+    summary_ = history_->summarize();
+  }
+
+  bool has(const double time) const { return analysis_ != nullptr && analysis_->time.back() >= time - 1e-9; }
+  const FiberSummary& summary() const { return summary_; }
+
+  std::size_t frame(const double time) const {
+    const auto& times = analysis_->time;
+    const auto after = std::lower_bound(times.begin(), times.end(), time - 1e-9);
+    return static_cast<std::size_t>(std::min(after, times.end() - 1) - times.begin());
+  }
+  template <class Measure>
+  double at(const double time, const Measure& measure) const {
+    return has(time) ? static_cast<double>(measure(history_->shapes()[frame(time)])) : none;
+  }
+  /// Degrees clockwise from +x, without jumps.
+  double angle(const double time) const { return has(time) ? degrees * history_->angles()[frame(time)] : none; }
+  std::string regime(const double time) const { return has(time) ? name_of(history_->regimes()[frame(time)]) : ""; }
+  double half_period() const {
+    return analysis_ == nullptr || summary_.half_periods.empty() ? none : summary_.half_periods[0];
+  }
+  std::string wave(const double time) const { return has(time) ? name_of(summary_.wave) : ""; }
+  double count_hooks(const double time) const {
+    if (!has(time)) return none;
+    const std::size_t i = frame(time);
+    return static_cast<double>(history_->hooks(FiberEnd::first)[i].has_value() +
+                               history_->hooks(FiberEnd::last)[i].has_value());
+  }
+  /// Of the two hooks' peaks from their ends, over the length.
+  double hook_place(const double time) const {
+    if (count_hooks(time) != 2.0) return none;
+    const std::size_t i = frame(time);
+    return 0.5 * (history_->hooks(FiberEnd::first)[i]->arclength + history_->hooks(FiberEnd::last)[i]->arclength) /
+           history_->shapes()[i].length;
+  }
+  const FiberHistory* history() const { return history_; }
+
+ private:
+  static constexpr double none = std::numeric_limits<double>::quiet_NaN();  ///< not reached
+  static constexpr double degrees = 180.0 / std::numbers::pi;
+
+  const RunAnalysis* analysis_ = nullptr;
+  const FiberHistory* history_ = nullptr;
+  FiberSummary summary_;
+};
+
+}  // namespace skein

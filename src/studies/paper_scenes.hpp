@@ -1,0 +1,15 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+namespace skein {
+
+/// A fiber of LaGrone, Cortez, Yan, Fauci 2019 in their shear flow, in their units: straight along x at t = 0.
+/// @param sections  N_f; the length is N_f 0.00173648
+SceneConfig make_paper_scene(int sections, double end);
+
+/// The same fibers with fewer nodes on a section: length, radius, blob and bending rigidity kept, sections as far apart
+/// as neighbours on a section. @param nodes_per_section  at least 3
+SceneConfig coarsen(SceneConfig scene, int nodes_per_section);
+
+}  // namespace skein
