@@ -15,7 +15,7 @@ skein_layer(physics  PUBLIC core arrays scene fibers fmm            PRIVATE kern
 skein_layer(solvers  PUBLIC core arrays                                                 EXTERNAL Eigen)
 skein_layer(dynamics PUBLIC core arrays scene fibers physics solvers PRIVATE kernels    EXTERNAL Eigen)
 skein_layer(io       PUBLIC core scene fibers                                           EXTERNAL hdf5.h xxhash.h)
-skein_layer(analysis PUBLIC core arrays fibers                      PRIVATE kernels     EXTERNAL Eigen)
+skein_layer(analysis PUBLIC core fibers                                                 EXTERNAL Eigen)
 skein_layer(runs     PUBLIC core arrays scene fibers physics solvers dynamics io analysis)
 skein_layer(studies  PUBLIC core arrays scene fibers physics io runs)
 skein_layer(cli      PUBLIC core arrays scene fibers physics io runs studies            EXTERNAL CLI)

@@ -2,21 +2,31 @@
 
 #include <skein/core/error.hpp>
 
-#include "kernels/section_centroid.hpp"
-
 namespace skein {
+namespace {
+
+/// Mean of the rows [first, first + count) of a vector, such as a section's nodes.
+template <class Space>
+KOKKOS_INLINE_FUNCTION Vec3 mean_of_rows(const ConstVectorView<Space>& vector, const int first, const int count) {
+  Vec3 sum;
+  for (int row = first; row < first + count; ++row) sum = sum + load(vector, row);
+  return sum / static_cast<double>(count);
+}
+
+}  // namespace
+
 template <class Space>
 void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& vector,
                            const VectorView<Space>& mean) {
   SKEIN_REQUIRE(mean.extent(0) == boxes.centroid.extent(0), "one mean for each section is needed");
   const SectionBoxes<Space> b = boxes;
   Kokkos::parallel_for(
-      "skein::compute_section_means", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0)),
-      KOKKOS_LAMBDA(const int run) {
-        const BoxedFiber& fiber = b.fiber(b.fiber_of_run(run));
-        const int end = fiber.end_section_of(run);
-        for (int section = fiber.first_section_of(run); section < end; ++section)
-          store(mean, section, mean_of_rows<Space>(vector, fiber.first_node_of(section), fiber.nodes_per_section));
+      "skein::compute_section_means", section_policy(space, boxes), KOKKOS_LAMBDA(const int item) {
+        const int block = item / sections_per_block;
+        const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
+        const int section = fiber.first_section_of(block) + item % sections_per_block;
+        if (section >= fiber.end_section_of(block)) return;
+        store(mean, section, mean_of_rows<Space>(vector, fiber.first_node_of(section), fiber.nodes_per_section));
       });
 }
 
@@ -25,19 +35,19 @@ void locate_sections(const Space& space, const SectionBoxes<Space>& boxes, const
   compute_section_means<Space>(space, boxes, position, boxes.centroid);
   const SectionBoxes<Space> b = boxes;
   Kokkos::parallel_for(
-      "skein::enclose_runs", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0)),
-      KOKKOS_LAMBDA(const int run) {
-        const BoxedFiber& fiber = b.fiber(b.fiber_of_run(run));
+      "skein::enclose_blocks", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0)),
+      KOKKOS_LAMBDA(const int block) {
+        const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
         Vec3 low, high;
-        enclose<Space>(b.centroid, b.centroid, fiber.first_section_of(run), fiber.end_section_of(run), low, high);
-        store(b.run_low, run, low);
-        store(b.run_high, run, high);
+        enclose<Space>(b.centroid, b.centroid, fiber.first_section_of(block), fiber.end_section_of(block), low, high);
+        store(b.block_low, block, low);
+        store(b.block_high, block, high);
       });
   Kokkos::parallel_for(
       "skein::enclose_fibers", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber.extent_int(0)),
       KOKKOS_LAMBDA(const int f) {
         Vec3 low, high;
-        enclose<Space>(b.run_low, b.run_high, b.fiber(f).first_run, b.fiber(f).end_run(), low, high);
+        enclose<Space>(b.block_low, b.block_high, b.fiber(f).first_block, b.fiber(f).end_block(), low, high);
         store(b.fiber_low, f, low);
         store(b.fiber_high, f, high);
       });

@@ -4,43 +4,49 @@
 
 namespace skein {
 
-/// Sections of a fiber that share a box.
-inline constexpr int sections_per_run = 16;
+/// Sections of a fiber that share a box: a block of them.
+inline constexpr int sections_per_block = 16;
 
-/// Where one fiber's nodes, sections and runs lie in the arrays of all fibers.
-struct BoxedFiber {
+/// Where one fiber's nodes, sections and blocks lie in the arrays of all fibers.
+struct FiberSections {
   int first_node = 0;
   int first_section = 0;
-  int first_run = 0;
+  int first_block = 0;
   int n_sections = 0;
   int nodes_per_section = 0;
   int distant_sections = 0;  ///< see Fiber::distant_sections
   double radius = 0.0;       ///< length
   double spacing = 0.0;      ///< of sections, length
 
-  /// Of all fibers' runs and sections, as all below.
-  KOKKOS_INLINE_FUNCTION int end_run() const { return first_run + math::ceil_div(n_sections, sections_per_run); }
-  KOKKOS_INLINE_FUNCTION int first_section_of(const int run) const {
-    return first_section + (run - first_run) * sections_per_run;
+  /// Of all fibers' blocks and sections, as all below.
+  KOKKOS_INLINE_FUNCTION int end_block() const { return first_block + math::ceil_div(n_sections, sections_per_block); }
+  KOKKOS_INLINE_FUNCTION int first_section_of(const int block) const {
+    return first_section + (block - first_block) * sections_per_block;
   }
-  KOKKOS_INLINE_FUNCTION int end_section_of(const int run) const {
-    return math::smaller(first_section_of(run) + sections_per_run, first_section + n_sections);
+  KOKKOS_INLINE_FUNCTION int end_section_of(const int block) const {
+    return math::smaller(first_section_of(block) + sections_per_block, first_section + n_sections);
   }
   KOKKOS_INLINE_FUNCTION int first_node_of(const int section) const {
     return first_node + (section - first_section) * nodes_per_section;
   }
 };
 
-/// Centroids of all sections, with boxes about short runs of them and about fibers, so that a search passes over what
+/// Centroids of all sections, with boxes about short blocks of them and about fibers, so that a search passes over what
 /// is far away.
 template <class Space>
 struct SectionBoxes {
-  Kokkos::View<BoxedFiber*, Space> fiber;
-  Kokkos::View<int*, Space> fiber_of_run;
+  Kokkos::View<FiberSections*, Space> fiber;
+  Kokkos::View<int*, Space> fiber_of_block;
   VectorView<Space> centroid;               ///< [n_sections, 3], length
-  VectorView<Space> run_low, run_high;      ///< [n_runs, 3], length
+  VectorView<Space> block_low, block_high;  ///< [n_blocks, 3], length
   VectorView<Space> fiber_low, fiber_high;  ///< [n_fibers, 3], length
 };
+
+/// A loop over the places of all blocks, some of which are behind their fiber's last section.
+template <class Space>
+Kokkos::RangePolicy<Space> section_policy(const Space& space, const SectionBoxes<Space>& boxes) {
+  return {space, 0, boxes.fiber_of_block.extent_int(0) * sections_per_block};
+}
 
 /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
 template <class Space>
@@ -84,20 +90,21 @@ KOKKOS_INLINE_FUNCTION double squared_distance(const Vec3 low, const Vec3 high, 
   return dot(d, d);
 }
 
-/// Calls body(fiber, run) for each run, in order, that has points within range + margin + the radius of its fiber of
-/// the box from low to high.
+/// Calls body(fiber, block) for each block, in order, that has points within range + margin + the radius of its fiber
+/// of the box from low to high.
 template <class Space, class Body>
-KOKKOS_INLINE_FUNCTION void for_each_near_run(const SectionBoxes<Space>& boxes, const Vec3 low, const Vec3 high,
-                                              const double margin, const Body& body) {
+KOKKOS_INLINE_FUNCTION void for_each_near_block(const SectionBoxes<Space>& boxes, const Vec3 low, const Vec3 high,
+                                                const double margin, const Body& body) {
   const int n_fibers = boxes.fiber.extent_int(0);
   for (int f = 0; f < n_fibers; ++f) {
-    const BoxedFiber& fiber = boxes.fiber(f);
+    const FiberSections& fiber = boxes.fiber(f);
     const double reach = margin + fiber.radius;
     const double limit = reach * reach;
     if (squared_distance(low, high, load(boxes.fiber_low, f), load(boxes.fiber_high, f)) > limit) continue;
-    const int end = fiber.end_run();
-    for (int run = fiber.first_run; run < end; ++run)
-      if (squared_distance(low, high, load(boxes.run_low, run), load(boxes.run_high, run)) <= limit) body(f, run);
+    const int end = fiber.end_block();
+    for (int block = fiber.first_block; block < end; ++block)
+      if (squared_distance(low, high, load(boxes.block_low, block), load(boxes.block_high, block)) <= limit)
+        body(f, block);
   }
 }
 

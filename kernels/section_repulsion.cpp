@@ -22,7 +22,7 @@ KOKKOS_INLINE_FUNCTION double push_of(const SectionPair& pair) {
 }
 
 template <class Space>
-KOKKOS_INLINE_FUNCTION void add_to_nodes(const VectorView<Space>& vector, const BoxedFiber& fiber, const int section,
+KOKKOS_INLINE_FUNCTION void add_to_nodes(const VectorView<Space>& vector, const FiberSections& fiber, const int section,
                                          const Vec3 sum) {
   const int n = fiber.nodes_per_section;
   const int first = fiber.first_node_of(section);
@@ -37,7 +37,7 @@ struct ForceTerm {
   using Value = Vec3;
   VectorView<Space> force;
   KOKKOS_INLINE_FUNCTION Vec3 value(const SectionPair& pair) const { return push_of(pair) * pair.d; }
-  KOKKOS_INLINE_FUNCTION void finish(const BoxedFiber& fiber, const int section, const Vec3 sum) const {
+  KOKKOS_INLINE_FUNCTION void finish(const FiberSections& fiber, const int section, const Vec3 sum) const {
     add_to_nodes<Space>(force, fiber, section, sum);
   }
 };
@@ -54,7 +54,7 @@ struct ChangeTerm {
     const double slope = 2.0 * pair.scale * pair.closeness / (pair.range * pair.range);
     return push * (v - along) - slope * along;
   }
-  KOKKOS_INLINE_FUNCTION void finish(const BoxedFiber& fiber, const int section, const Vec3 sum) const {
+  KOKKOS_INLINE_FUNCTION void finish(const FiberSections& fiber, const int section, const Vec3 sum) const {
     add_to_nodes<Space>(change, fiber, section, sum);
   }
 };
@@ -66,7 +66,7 @@ struct EnergyTerm {
   KOKKOS_INLINE_FUNCTION double value(const SectionPair& pair) const {
     return pair.scale * pair.closeness * pair.closeness * pair.closeness / 6.0;
   }
-  KOKKOS_INLINE_FUNCTION void finish(const BoxedFiber&, const int section, const double sum) const {
+  KOKKOS_INLINE_FUNCTION void finish(const FiberSections&, const int section, const double sum) const {
     energy(section) = sum;
   }
 };
@@ -86,81 +86,81 @@ struct MomentTerm {
     const Vec3 d = pair.d, half = 0.5 * push_of(pair) * d;
     return {{half.x * d.x, half.y * d.y, half.z * d.z}, {half.y * d.z, half.x * d.z, half.x * d.y}};
   }
-  KOKKOS_INLINE_FUNCTION void finish(const BoxedFiber&, const int section, const SymmetricMatrix& sum) const {
+  KOKKOS_INLINE_FUNCTION void finish(const FiberSections&, const int section, const SymmetricMatrix& sum) const {
     store(diagonal, section, sum.diagonal);
     store(mixed, section, sum.mixed);
   }
 };
 
-constexpr int runs_at_once = 8;  // of a host's thread: 128 sums lie on its stack
+constexpr int blocks_at_once = 8;  // of a host's thread: 128 sums lie on its stack
 
-/// Sums over near sections: on hosts for several runs of a fiber at once, which share the search, on devices for one
+/// Sums over near sections: on hosts for several blocks of a fiber at once, which share the search, on devices for one
 /// section. Either way in the order of the sections.
 template <class Space, class Term>
 struct Gathering {
-  static constexpr int items_per_run = on_host<Space> ? 1 : sections_per_run;
+  static constexpr int items_per_block = on_host<Space> ? 1 : sections_per_block;
   SectionBoxes<Space> boxes;
   RepulsionLaw law;
   Term term;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int item) const {
-    const int run = item / items_per_run;
-    const int f = boxes.fiber_of_run(run);
-    if constexpr (items_per_run == 1)
-      gather_runs(f, run);
+    const int block = item / items_per_block;
+    const int f = boxes.fiber_of_block(block);
+    if constexpr (items_per_block == 1)
+      gather_blocks(f, block);
     else
-      gather_section(f, run, item % items_per_run);
+      gather_section(f, block, item % items_per_block);
   }
 
-  /// Of the run and those that follow it on its fiber.
-  KOKKOS_INLINE_FUNCTION void gather_runs(const int f, const int run) const {
-    const BoxedFiber& fiber = boxes.fiber(f);
-    if ((run - fiber.first_run) % runs_at_once != 0) return;
-    const int end_run = math::smaller(run + runs_at_once, fiber.end_run());
-    const int first = fiber.first_section_of(run);
+  /// Of the block and those that follow it on its fiber.
+  KOKKOS_INLINE_FUNCTION void gather_blocks(const int f, const int block) const {
+    const FiberSections& fiber = boxes.fiber(f);
+    if ((block - fiber.first_block) % blocks_at_once != 0) return;
+    const int end_block = math::smaller(block + blocks_at_once, fiber.end_block());
+    const int first = fiber.first_section_of(block);
     const double margin = law.range + fiber.radius;
     Vec3 low, high;
-    enclose<Space>(boxes.run_low, boxes.run_high, run, end_run, low, high);
+    enclose<Space>(boxes.block_low, boxes.block_high, block, end_block, low, high);
 
-    typename Term::Value sum[runs_at_once * sections_per_run] = {};
-    for_each_near_run<Space>(boxes, low, high, margin, [&](const int other_f, const int other_run) {
+    typename Term::Value sum[blocks_at_once * sections_per_block] = {};
+    for_each_near_block<Space>(boxes, low, high, margin, [&](const int other_f, const int other_block) {
       const double reach = margin + boxes.fiber(other_f).radius;
-      const Vec3 other_low = load(boxes.run_low, other_run), other_high = load(boxes.run_high, other_run);
-      for (int own = run; own < end_run; ++own) {
-        if (squared_distance(load(boxes.run_low, own), load(boxes.run_high, own), other_low, other_high) >
+      const Vec3 other_low = load(boxes.block_low, other_block), other_high = load(boxes.block_high, other_block);
+      for (int own = block; own < end_block; ++own) {
+        if (squared_distance(load(boxes.block_low, own), load(boxes.block_high, own), other_low, other_high) >
             reach * reach)
           continue;
         const int end = fiber.end_section_of(own);
         for (int section = fiber.first_section_of(own); section < end; ++section)
-          sum[section - first] = add_run(f, section, other_f, other_run, sum[section - first]);
+          sum[section - first] = add_block(f, section, other_f, other_block, sum[section - first]);
       }
     });
-    const int end = fiber.end_section_of(end_run - 1);
+    const int end = fiber.end_section_of(end_block - 1);
     for (int section = first; section < end; ++section) term.finish(fiber, section, sum[section - first]);
   }
 
-  KOKKOS_INLINE_FUNCTION void gather_section(const int f, const int run, const int place) const {
-    const BoxedFiber& fiber = boxes.fiber(f);
-    const int section = fiber.first_section_of(run) + place;
-    if (section >= fiber.end_section_of(run)) return;
+  KOKKOS_INLINE_FUNCTION void gather_section(const int f, const int block, const int place) const {
+    const FiberSections& fiber = boxes.fiber(f);
+    const int section = fiber.first_section_of(block) + place;
+    if (section >= fiber.end_section_of(block)) return;
     const Vec3 x = load(boxes.centroid, section);
     typename Term::Value sum{};
-    for_each_near_run<Space>(boxes, x, x, law.range + fiber.radius, [&](const int other_f, const int other_run) {
-      sum = add_run(f, section, other_f, other_run, sum);
+    for_each_near_block<Space>(boxes, x, x, law.range + fiber.radius, [&](const int other_f, const int other_block) {
+      sum = add_block(f, section, other_f, other_block, sum);
     });
     term.finish(fiber, section, sum);
   }
 
-  /// The sum so far, with the pairs of a section with those of a run.
-  KOKKOS_INLINE_FUNCTION typename Term::Value add_run(const int f, const int section, const int other_f, const int run,
-                                                      typename Term::Value sum) const {
-    const BoxedFiber &fiber = boxes.fiber(f), &other_fiber = boxes.fiber(other_f);
+  /// The sum so far, with the pairs of a section with those of a block.
+  KOKKOS_INLINE_FUNCTION typename Term::Value add_block(const int f, const int section, const int other_f,
+                                                        const int block, typename Term::Value sum) const {
+    const FiberSections &fiber = boxes.fiber(f), &other_fiber = boxes.fiber(other_f);
     const double radii = fiber.radius + other_fiber.radius;
     const double limit = (law.range + radii) * (law.range + radii);
     const double scale = law.strength * (fiber.spacing * other_fiber.spacing);
     const Vec3 x = load(boxes.centroid, section);
-    const int end = other_fiber.end_section_of(run);
-    for (int other = other_fiber.first_section_of(run); other < end; ++other) {
+    const int end = other_fiber.end_section_of(block);
+    for (int other = other_fiber.first_section_of(block); other < end; ++other) {
       const int apart = other > section ? other - section : section - other;
       if (f == other_f && apart < fiber.distant_sections) continue;
       const Vec3 d = x - load(boxes.centroid, other);
@@ -178,9 +178,9 @@ template <class Space, class Term>
 void gather(const char* label, const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
             const Term& term) {
   using Kernel = Gathering<Space, Term>;
-  Kokkos::parallel_for(label,
-                       Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_run.extent_int(0) * Kernel::items_per_run),
-                       Kernel{boxes, law, term});
+  Kokkos::parallel_for(
+      label, Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0) * Kernel::items_per_block),
+      Kernel{boxes, law, term});
 }
 
 }  // namespace

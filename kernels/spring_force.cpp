@@ -61,13 +61,13 @@ KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& spr
   return energy;
 }
 
-void compute_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
-                     const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
+void add_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
+                 const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
   using Policy = Kokkos::RangePolicy<HostSpace>;
   const int n_nodes = force.extent_int(0);
   const int n_tiles = springs.fiber_of_tile.extent_int(0);
-  Kokkos::parallel_for("skein::compute_spring_force", Policy(space, 0, n_tiles),
-                       [=](const int tile) { compute_tile_force(springs, tile, position, force); });
+  Kokkos::parallel_for("skein::add_spring_force", Policy(space, 0, n_tiles),
+                       [=](const int tile) { add_tile_force(springs, tile, position, force); });
 
   const int n_reactions = springs.reaction.extent_int(0);
   Kokkos::parallel_for("skein::add_spring_reaction", Policy(space, 0, n_nodes), [=](const int node) {
@@ -86,25 +86,27 @@ void check_extents(const SpringArrays<Space>& springs, const ConstVectorView<Spa
 }  // namespace
 
 template <class Space>
-void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
-                                   const ConstVectorView<Space>& position, const VectorView<Space>& force) {
+void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+                               const ConstVectorView<Space>& position, const VectorView<Space>& force) {
   check_extents<Space>(springs, position, force);
   Kokkos::parallel_for(
-      "skein::compute_spring_force_by_nodes", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
-      KOKKOS_LAMBDA(const int node) { store(force, node, force_on_node<Space>(springs, position, node)); });
+      "skein::add_spring_force_by_nodes", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
+      KOKKOS_LAMBDA(const int node) {
+        store(force, node, load(force, node) + force_on_node<Space>(springs, position, node));
+      });
 }
 
 template <class Space>
-void compute_spring_force(const Space& space, const SpringArrays<Space>& springs,
-                          const ConstVectorView<Space>& position, const VectorView<Space>& force) {
+void add_spring_force(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
+                      const VectorView<Space>& force) {
   if constexpr (on_host<Space>) {
     if (!springs.has_wide_sections) {
       check_extents<Space>(springs, position, force);
-      compute_on_host(space, springs, position, force);
+      add_on_host(space, springs, position, force);
       return;
     }
   }
-  compute_spring_force_by_nodes<Space>(space, springs, position, force);
+  add_spring_force_by_nodes<Space>(space, springs, position, force);
 }
 
 template <class Space>
@@ -121,12 +123,12 @@ void compute_section_energy(const Space& space, const SpringArrays<Space>& sprin
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                  \
-  template void compute_spring_force<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,          \
-                                        const VectorView<S>&);                                                \
-  template void compute_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
-                                                 const VectorView<S>&);                                       \
-  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,        \
+#define SKEIN_INSTANTIATE(S)                                                                              \
+  template void add_spring_force<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,          \
+                                    const VectorView<S>&);                                                \
+  template void add_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
+                                             const VectorView<S>&);                                       \
+  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,    \
                                           const ScalarView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

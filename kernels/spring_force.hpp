@@ -43,20 +43,20 @@ KOKKOS_INLINE_FUNCTION double spring_factor(const SpringArrays<Space>& springs, 
 inline constexpr int sections_per_tile = simd::width<double>;
 inline constexpr int max_tile_nodes = 64;
 
-/// Overwrites force, [n_nodes, 3], with the springs' force on each node:
+/// Adds to force, [n_nodes, 3], the springs' force on each node:
 ///
 ///   force on a node = - sum over its springs of k (r/l - 1) d/r,   d = node - other node, r = |d|;   zero at r = 0
 ///
 /// The order of every sum is fixed: the result does not depend on threads.
 template <class Space>
-void compute_spring_force(const Space& space, const SpringArrays<Space>& springs,
-                          const ConstVectorView<Space>& position, const VectorView<Space>& force);
+void add_spring_force(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
+                      const VectorView<Space>& force);
 
 /// The same by one thread per node, each spring weighed at both of its nodes: the way of GPUs, and of the host where
 /// sections have more nodes than a tile holds.
 template <class Space>
-void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
-                                   const ConstVectorView<Space>& position, const VectorView<Space>& force);
+void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+                               const ConstVectorView<Space>& position, const VectorView<Space>& force);
 
 /// Overwrites section_energy, [n_sections], with sum k l (r/l - 1)^2 / 2 over the springs inside each section and from
 /// it to later sections.

@@ -27,22 +27,22 @@ KOKKOS_INLINE_FUNCTION Vec3 change_on_node(const SpringArrays<Space>& springs, c
 }  // namespace
 
 template <class Space>
-void compute_spring_force_change(const Space& space, const SpringArrays<Space>& springs,
-                                 const ConstVectorView<Space>& position, const ConstVectorView<Space>& displacement,
-                                 const VectorView<Space>& change) {
+void add_spring_force_change(const Space& space, const SpringArrays<Space>& springs,
+                             const ConstVectorView<Space>& position, const ConstVectorView<Space>& displacement,
+                             const VectorView<Space>& change) {
   SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0) && displacement.extent(0) == position.extent(0) &&
                     change.extent(0) == position.extent(0),
                 "positions, displacements, changes and the nodes of the springs differ in number");
   Kokkos::parallel_for(
-      "skein::compute_spring_force_change", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
+      "skein::add_spring_force_change", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
       KOKKOS_LAMBDA(const int node) {
-        store(change, node, change_on_node<Space>(springs, position, displacement, node));
+        store(change, node, load(change, node) + change_on_node<Space>(springs, position, displacement, node));
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                \
-  template void compute_spring_force_change<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
-                                               const ConstVectorView<S>&, const VectorView<S>&);
+#define SKEIN_INSTANTIATE(S)                                                                            \
+  template void add_spring_force_change<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
+                                           const ConstVectorView<S>&, const VectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

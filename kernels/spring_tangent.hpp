@@ -12,8 +12,8 @@ namespace skein {
 ///
 ///   change = k (1/r - 1/l) v - k (d . v) d / r^3;   zero at r = 0
 template <class Space>
-void compute_spring_force_change(const Space& space, const SpringArrays<Space>& springs,
-                                 const ConstVectorView<Space>& position, const ConstVectorView<Space>& displacement,
-                                 const VectorView<Space>& change);
+void add_spring_force_change(const Space& space, const SpringArrays<Space>& springs,
+                             const ConstVectorView<Space>& position, const ConstVectorView<Space>& displacement,
+                             const VectorView<Space>& change);
 
 }  // namespace skein

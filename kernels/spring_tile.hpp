@@ -80,17 +80,18 @@ inline void load_tile(const ConstVectorView<HostSpace>& position, const FiberSpr
   }
 }
 
-/// The lanes whose section the fiber has, into rows first_row + node of an array.
-inline void store_tile(const SectionTile& tile, const FiberSprings& fiber, const int first_section, const int first_row,
-                       const VectorView<HostSpace>& force) {
+/// Puts the lanes whose section the fiber has into rows first_row + node of an array: `put` is how a row takes a value.
+template <class Put>
+inline void put_tile(const SectionTile& tile, const FiberSprings& fiber, const int first_section, const int first_row,
+                     const VectorView<HostSpace>& force, const Put& put) {
   const int n_lanes = math::smaller(sections_per_tile, fiber.n_sections - first_section);
   for (int lane = 0; lane < n_lanes; ++lane) {
     const int first = first_row + fiber.first_node + (first_section + lane) * fiber.nodes_per_section;
     double *x = &force(first, 0), *y = &force(first, 1), *z = &force(first, 2);
     for (int a = 0; a < fiber.nodes_per_section; ++a) {
-      x[a] = tile.x[a][lane];
-      y[a] = tile.y[a][lane];
-      z[a] = tile.z[a][lane];
+      put(x[a], tile.x[a][lane]);
+      put(y[a], tile.y[a][lane]);
+      put(z[a], tile.z[a][lane]);
     }
   }
 }
@@ -108,8 +109,8 @@ inline simd::Pack<double> load_factors(const SpringArrays<HostSpace>& springs, c
 
 /// Springs inside the tile's sections and from them to later ones: their force on the tile's own nodes into `force`,
 /// on later sections into `reaction` (rows by section offset), which nobody else writes.
-inline void compute_tile_force(const SpringArrays<HostSpace>& springs, const int tile,
-                               const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
+inline void add_tile_force(const SpringArrays<HostSpace>& springs, const int tile,
+                           const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
   const FiberSprings fiber = springs.fiber(springs.fiber_of_tile(tile));
   const int first_section = (tile - fiber.first_tile) * sections_per_tile;
   const int n = fiber.nodes_per_section;
@@ -132,9 +133,10 @@ inline void compute_tile_force(const SpringArrays<HostSpace>& springs, const int
     for (int a = 0; a < n; ++a)
       add_row({stiffness, inverse_rest_length, n, a, 0}, factor, own, other, own_force, reaction);
     const int n_nodes = force.extent_int(0);
-    store_tile(reaction, fiber, first_section + offset, (offset - 1) * n_nodes, springs.reaction);
+    put_tile(reaction, fiber, first_section + offset, (offset - 1) * n_nodes, springs.reaction,
+             [](double& row, const double value) { row = value; });
   }
-  store_tile(own_force, fiber, first_section, 0, force);
+  put_tile(own_force, fiber, first_section, 0, force, [](double& row, const double value) { row += value; });
 }
 
 }  // namespace skein

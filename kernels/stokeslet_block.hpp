@@ -2,7 +2,7 @@
 
 #include <skein/arrays/types.hpp>
 
-#include "kernels/node_run.hpp"
+#include "kernels/index_range.hpp"
 #include "kernels/regularized_stokeslet.hpp"
 #include "kernels/stokeslet_tile.hpp"
 
@@ -83,7 +83,7 @@ void add_tile_to_block(const Block<Real>& targets, const SourceTile<Real>& sourc
 
 /// sum += velocity at the block's targets due to a run of sources, one direction.
 template <class Real>
-void add_run_to_block(const HostSources& from, const Run run, const Block<Real>& targets, const Vec3 origin,
+void add_run_to_block(const HostSources& from, const IndexRange run, const Block<Real>& targets, const Vec3 origin,
                       BlockSum<Real>& sum) {
   SourceTile<Real> sources;
   for (int s = 0; s < run.count; s += tile_sources) {
@@ -100,16 +100,16 @@ void add_run_to_block(const HostSources& from, const Run run, const Block<Real>&
   }
 }
 
-/// velocity of a run of at most block_targets targets += what runs of sources, named by next_run(Run&) until it says
-/// false, contribute.
+/// velocity of a run of at most block_targets targets += what runs of sources, named by next_run(IndexRange&) until it
+/// says false, contribute.
 template <class Real, class NextRun>
 void add_runs_to_targets(const HostSources& from, const NextRun& next_run, const ConstVectorView<HostSpace>& target,
-                         const Run targets, const VectorView<HostSpace>& velocity) {
+                         const IndexRange targets, const VectorView<HostSpace>& velocity) {
   const Vec3 origin = load(target, targets.first + targets.count / 2);
   Block<Real> block;
   block.template load_positions<HostSpace>(target, targets.first, targets.count, origin);
   BlockSum<Real> sum = {};
-  Run run;
+  IndexRange run;
   while (next_run(run)) add_run_to_block(from, run, block, origin, sum);
   for (int t = 0; t < targets.count; ++t)
     for (int c = 0; c < 3; ++c) velocity(targets.first + t, c) += sum.velocity[c][t];

@@ -22,7 +22,7 @@ void add_on_host(const HostSpace& space, const HostSources& sources, const Const
                        [=](const int block) {
                          const int first = block * block_targets;
                          bool given = false;
-                         const auto all_sources = [&](Run& run) {
+                         const auto all_sources = [&](IndexRange& run) {
                            run = {0, n_sources};
                            return !std::exchange(given, true);
                          };

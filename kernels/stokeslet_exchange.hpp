@@ -81,29 +81,30 @@ void exchange(const Side<Real>& a, const Side<Real>& b, const Real blob_squared,
       simd::add_lanes(&velocity_b[c][j], simd::sum_lanes_of_each<Real>(&reaction[c][j]));
 }
 
-inline void add_to(const VectorView<HostSpace>& total, const Run run, const SideVelocity& velocity) {
+inline void add_to(const VectorView<HostSpace>& total, const IndexRange run, const SideVelocity& velocity) {
   for (int c = 0; c < 3; ++c)
     for (int i = 0; i < run.count; ++i) total(run.first + i, c) += velocity[c][i];
 }
 
 template <class Real>
-void load_side(Side<Real>& side, const HostSources& nodes, const Run run, const Vec3 origin) {
+void load_side(Side<Real>& side, const HostSources& nodes, const IndexRange run, const Vec3 origin) {
   side.template load_positions<HostSpace>(nodes.position, run.first, run.count, origin);
   side.template load_forces<HostSpace>(nodes.force, run.first, nodes.scale);
 }
 
 /// Each pair of nodes, one in each run, once.
 template <class Real, Coordinates coordinates = Coordinates::exact>
-void add_between(const HostSources& nodes, const Run one, const Run other, const VectorView<HostSpace>& velocity) {
+void add_between(const HostSources& nodes, const IndexRange one, const IndexRange other,
+                 const VectorView<HostSpace>& velocity) {
   const Real blob_squared = static_cast<Real>(nodes.blob(0) * nodes.blob(0));
   Side<Real> a, b;
   for (int i = 0; i < one.count; i += side_nodes) {
-    const Run run_a{one.first + i, math::smaller(side_nodes, one.count - i)};
+    const IndexRange run_a{one.first + i, math::smaller(side_nodes, one.count - i)};
     const Vec3 origin = load(nodes.position, run_a.first + run_a.count / 2);
     load_side(a, nodes, run_a, origin);
     alignas(simd::bytes) SideVelocity velocity_a = {};
     for (int j = 0; j < other.count; j += side_nodes) {
-      const Run run_b{other.first + j, math::smaller(side_nodes, other.count - j)};
+      const IndexRange run_b{other.first + j, math::smaller(side_nodes, other.count - j)};
       load_side(b, nodes, run_b, origin);
       alignas(simd::bytes) SideVelocity velocity_b = {};
       if (coordinates == Coordinates::exact && needs_low_parts(a, b, static_cast<double>(blob_squared)))
@@ -119,17 +120,17 @@ void add_between(const HostSources& nodes, const Run one, const Run other, const
 /// Each pair of nodes inside a run: between its halves, then inside each. Few nodes are summed one direction after the
 /// other.
 template <class Real, Coordinates coordinates = Coordinates::exact>
-void add_within(const HostSources& nodes, const Run run, const VectorView<HostSpace>& velocity) {
+void add_within(const HostSources& nodes, const IndexRange run, const VectorView<HostSpace>& velocity) {
   if (run.count > undivided_nodes) {
     const int half = math::ceil_div(run.count, 2 * tile_step) * tile_step;
-    const Run first{run.first, half}, second{run.first + half, run.count - half};
+    const IndexRange first{run.first, half}, second{run.first + half, run.count - half};
     add_within<Real, coordinates>(nodes, first, velocity);
     add_between<Real, coordinates>(nodes, first, second, velocity);
     add_within<Real, coordinates>(nodes, second, velocity);
     return;
   }
   bool given = false;
-  const auto whole_run = [&](Run& sources) {
+  const auto whole_run = [&](IndexRange& sources) {
     sources = run;
     return !std::exchange(given, true);
   };

@@ -16,7 +16,7 @@ namespace {
 constexpr int nodes_per_tile = 128;  // aimed at; few nodes make few tiles, many make max_tiles larger ones
 constexpr int max_tiles = 64;
 
-Run tile_run(const int tile, const int n_tiles, const int n_nodes) {
+IndexRange tile_run(const int tile, const int n_tiles, const int n_nodes) {
   const auto edge = [=](const int t) {
     const auto even = static_cast<int>(static_cast<std::int64_t>(n_nodes) * t / n_tiles);
     return t < n_tiles ? even / tile_step * tile_step : n_nodes;

@@ -31,9 +31,9 @@ void measure(const char* name, const SceneConfig& scene) {
   options.check_every = 0;
   FmmMobility fluid(scene.fluid.viscosity, options);
   const auto seconds = perf::median_seconds(
-      3, std::vector<std::function<void()>>{[&] { springs.compute_forces(position, force); },
-                                            [&] { repulsion.add_forces(position, force); },
-                                            [&] { repulsion.add_force_changes(position, position, force); },
+      3, std::vector<std::function<void()>>{[&] { springs.add_forces(0.0, position, force); },
+                                            [&] { repulsion.add_forces(0.0, position, force); },
+                                            [&] { repulsion.add_force_changes(0.0, position, position, force); },
                                             [&] {
                                               fluid.add_velocity({position, force, blob}, position, velocity);
                                             }});

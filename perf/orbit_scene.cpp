@@ -26,9 +26,10 @@ SceneConfig make_orbit_scene(const OrbitScene& orbit) {
   return scene;
 }
 
-FiberDynamics make_direct_dynamics(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
-  return {fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-          std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double)};
+Physics make_direct_physics(const SceneConfig& scene) {
+  Physics physics = make_physics(scene);
+  physics.mobility = std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double);
+  return physics;
 }
 
 double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/physics/physics.hpp>
 #include <skein/scene/scene_config.hpp>
 
 #include <vector>
@@ -18,8 +18,8 @@ struct OrbitScene {
 
 SceneConfig make_orbit_scene(const OrbitScene& orbit);
 
-/// The fibers in the scene's flow, velocities by direct sums in double precision.
-FiberDynamics make_direct_dynamics(const SceneConfig& scene, const std::vector<Fiber>& fibers);
+/// The scene's physics, velocities by direct sums in double precision.
+Physics make_direct_physics(const SceneConfig& scene);
 
 /// Between nodes of the same number, length.
 double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b);

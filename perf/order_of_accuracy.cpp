@@ -4,6 +4,7 @@
 // Arguments: nodes=6 (on a section; the paper has 18), start=5.2, end=5.6.
 
 #include <skein/arrays/runtime.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/solvers/spectral_radius.hpp>
 
@@ -35,15 +36,17 @@ class OrbitPiece {
     scene_.time.step = step;
     scene_.time.tolerance = tolerance;
     scene_.time.max_step = 0.5;
-    FiberDynamics dynamics = make_direct_dynamics(scene_, fibers_);
-    const auto integrator = make_integrator(scene_, fibers_, dynamics);
+    Physics physics = make_direct_physics(scene_);
+    FiberDynamics dynamics(physics);
+    const auto integrator = make_integrator(scene_, physics, dynamics);
     State state{start, 0, to_device("position", from)};
     while (state.time < end) integrator->advance(state, end);
     return to_host(ConstVectors(state.position));
   }
 
   double measure_spectral_radius(const Positions& at) {
-    FiberDynamics dynamics = make_direct_dynamics(scene_, fibers_);
+    Physics physics = make_direct_physics(scene_);
+    FiberDynamics dynamics(physics);
     const Vectors position = to_device("position", at), velocity("velocity", at.size());
     dynamics.compute_velocity(0.0, position, velocity);
     SpectralRadius power_iteration(static_cast<int>(at.size()), 1e-5 * fibers_.front().spacing(), 1);

@@ -3,6 +3,7 @@
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/stopwatch.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 
 #include "perf/orbit_scene.hpp"
@@ -125,9 +126,10 @@ void print_step(const StepReport& report, const State& state) {
 
 int run(const Choice& choice) {
   const SceneConfig scene = make_scene(choice);
-  const auto fibers = make_fibers(scene.fibers);
-  FiberDynamics dynamics = make_direct_dynamics(scene, fibers);
-  const auto integrator = make_integrator(scene, fibers, dynamics);
+  Physics physics = make_direct_physics(scene);
+  const auto& fibers = physics.fibers;
+  FiberDynamics dynamics(physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
   State state{0.0, 0, to_device("position", make_surface_nodes(fibers))};
   const Vectors before("before", state.position.extent(0));
   SampleFile samples(choice.output, choice.sample, state.position.extent(0));

@@ -1,8 +1,10 @@
 #include "cli/cli.hpp"
 #include "cli/thread_waiting.hpp"
+#include "runs/fault_injection.hpp"
 
 int main(int argc, char** argv) {
   skein::limit_thread_spinning(argv);
+  skein::install_kill_order();
   return skein::run_command_line(
       argc, argv,
       {skein::add_run_verb, skein::add_resume_verb, skein::add_verify_verb, skein::add_validate_verb,

@@ -26,19 +26,11 @@ PowerBalance compute_power_balance(const std::span<const Vec3> force, const std:
   return power;
 }
 
-Matrix3 compute_stresslet(const std::span<const Vec3> position, const std::span<const Vec3> force) {
-  SKEIN_REQUIRE(position.size() == force.size(), "one force for each position");
-  Vec3 middle;
-  for (const Vec3 x : position) middle = middle + x / static_cast<double>(position.size());
+Matrix3 compute_stresslet(const SymmetricTensor& moment) {
   Matrix3 stresslet{};
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const Vec3 arm = position[i] - middle;
-    const double x[3] = {arm.x, arm.y, arm.z}, f[3] = {force[i].x, force[i].y, force[i].z};
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) stresslet[a][b] -= 0.5 * (x[a] * f[b] + x[b] * f[a]);
-  }
-  const double third = (stresslet[0][0] + stresslet[1][1] + stresslet[2][2]) / 3.0;
-  for (int a = 0; a < 3; ++a) stresslet[a][a] -= third;
+  const double third = (moment[0] + moment[1] + moment[2]) / 3.0;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b) stresslet[a][b] = a == b ? third - moment[a] : -moment[6 - a - b];
   return stresslet;
 }
 

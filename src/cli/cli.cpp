@@ -4,7 +4,7 @@
 #include <skein/core/error.hpp>
 #include <skein/scene/nearest_name.hpp>
 
-#include "runs/terminal.hpp"
+#include "cli/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

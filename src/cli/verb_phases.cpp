@@ -6,10 +6,10 @@
 
 #include "cli/common_options.hpp"
 #include "cli/plot_scripts.hpp"
+#include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_analysis.hpp"
 #include "runs/run_to_end.hpp"
-#include "runs/terminal.hpp"
 #include "studies/paper_scenes.hpp"
 
 #include <CLI/CLI.hpp>
@@ -114,7 +114,8 @@ int draw_phases(const PhaseOptions& options) {
   PhaseTable table;
   for (const PhasePoint& point : points) {
     const fs::path path = fs::path(options.output) / point.folder;
-    if (run_to_end(point.scene, path, options.max_walltime, options.quiet) == ExitCode::stopped)
+    TerminalListener listener(options.quiet);
+    if (run_to_end(point.scene, path, options.max_walltime, listener) == ExitCode::stopped)
       return static_cast<int>(ExitCode::stopped);
     table.add(point, analyze_run(RunFolder::open(path), false));
     std::fflush(stdout);

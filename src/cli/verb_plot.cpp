@@ -4,9 +4,9 @@
 #include <skein/scene/scene_file.hpp>
 
 #include "cli/plot_scripts.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_analysis.hpp"
-#include "runs/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,9 +3,9 @@
 
 #include "cli/common_options.hpp"
 #include "cli/plot_scripts.hpp"
+#include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_to_end.hpp"
-#include "runs/terminal.hpp"
 #include "studies/lagrone2019.hpp"
 #include "studies/paper_scenes.hpp"
 
@@ -53,7 +53,8 @@ ExitCode run_needed(const ReproduceOptions& options, const std::vector<std::stri
   for (const PaperFiber& fiber : list_paper_fibers()) {
     if (options.no_runs || !is_needed(fiber, figures)) continue;
     const SceneConfig scene = coarsen(make_paper_scene(fiber.sections, fiber.end), options.nodes_per_section);
-    if (run_to_end(scene, folder_of(fiber, options), options.max_walltime, options.quiet) == ExitCode::stopped)
+    TerminalListener listener(options.quiet);
+    if (run_to_end(scene, folder_of(fiber, options), options.max_walltime, listener) == ExitCode::stopped)
       return ExitCode::stopped;
   }
   return ExitCode::done;

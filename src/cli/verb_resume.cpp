@@ -6,10 +6,12 @@
 #include <skein/scene/scene_file.hpp>
 
 #include "cli/common_options.hpp"
+#include "cli/terminal.hpp"
+#include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
+#include "runs/fault_injection.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulation.hpp"
-#include "runs/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -64,8 +66,9 @@ int resume_run(const ResumeOptions& options) {
 
   const Runtime runtime(options.threads);
   RunControl control(options.max_walltime);
-  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
-                        ProgressReport::choose_kind(options.quiet), options.quiet);
+  TerminalListener listener(options.quiet);
+  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
+                        read_fault_hooks());
   simulation.say(what_happened + describe_point(point, scene));
   simulation.introduce();
   return static_cast<int>(simulation.run());

@@ -6,11 +6,13 @@
 #include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/terminal.hpp"
+#include "cli/terminal_listener.hpp"
 #include "runs/evaluation_time.hpp"
+#include "runs/fault_injection.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulation.hpp"
-#include "runs/terminal.hpp"
 
 #include <fmt/format.h>
 
@@ -45,8 +47,8 @@ int run_scene(const RunOptions& options) {
   RunControl control(options.max_walltime);
   std::optional<RunLock> lock;
   const RunFolder folder = make_folder(options, write_scene(reading.config), lock);
-  Simulation simulation(reading.config, folder, nullptr, control, ProgressReport::choose_kind(options.quiet),
-                        options.quiet);
+  TerminalListener listener(options.quiet);
+  Simulation simulation(reading.config, folder, nullptr, control, listener, read_fault_hooks());
   simulation.introduce();
   return static_cast<int>(simulation.run());
 }

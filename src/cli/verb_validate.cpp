@@ -2,10 +2,10 @@
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/scene_summary.hpp"
-#include "runs/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include <skein/core/error.hpp>
 #include <skein/io/run_check.hpp>
 
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "runs/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

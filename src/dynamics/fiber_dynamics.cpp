@@ -1,27 +1,13 @@
 #include <skein/dynamics/fiber_dynamics.hpp>
 
-#include "kernels/node_fault.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <numbers>
 #include <utility>
 
 namespace skein {
 namespace {
-
-std::string describe_fault(const ConstVectors& position, const Fiber& fiber, const int fiber_index, const int node) {
-  const int in_fiber = node - fiber.first_node;
-  const int section = in_fiber / fiber.config.nodes_per_section;
-  const auto range = std::make_pair(node, node + 1);
-  const Vec3 x = to_host(Kokkos::subview(position, range, Kokkos::ALL())).front();
-  return fmt::format(
-      "node {} (fiber {}, section {}, node {} of the section) at ({:.6g}, {:.6g}, {:.6g}) is not finite, or farther "
-      "than "
-      "{:g} radii from its section's centre",
-      node, fiber_index, section, in_fiber % fiber.config.nodes_per_section, x.x, x.y, x.z, FiberDynamics::burst_ratio);
-}
 
 constexpr int evaluations_per_timing = on_host<ExecSpace> ? 1 : 16;
 
@@ -56,72 +42,50 @@ class PartsTimer {
 
 }  // namespace
 
-FiberDynamics::FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<SpringForces> springs,
-                             std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility,
-                             std::unique_ptr<SectionRepulsion> repulsion)
-    : fibers_(fibers),
-      springs_(std::move(springs)),
-      flow_(std::move(flow)),
-      mobility_(std::move(mobility)),
-      repulsion_(std::move(repulsion)),
-      blob_(to_device("skein::FiberDynamics::blob", make_blobs(fibers))),
-      force_("skein::FiberDynamics::force", static_cast<std::size_t>(count_nodes(fibers))) {}
+FiberDynamics::FiberDynamics(Physics& physics)
+    : physics_(physics), force_("skein::FiberDynamics::force", physics.blob.extent(0)) {}
 
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
   PartsTimer timer(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
-  flow_->add_velocity(time, position, velocity);
-  springs_->compute_forces(position, force_);
-  if (repulsion_ != nullptr) repulsion_->add_forces(position, force_);
+  physics_.flow->add_velocity(time, position, velocity);
+  physics_.compute_forces(time, position, force_);
   timer.begin_fluid();
-  mobility_->add_velocity({position, force_, blob_}, position, velocity);
+  physics_.mobility->add_velocity({position, force_, physics_.blob}, position, velocity);
 }
 
-void FiberDynamics::multiply(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result) {
+void FiberDynamics::multiply(const double time, const ConstVectors& position, const ConstVectors& displacement,
+                             const Vectors& result) {
   PartsTimer timer(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), result, 0.0);
-  springs_->compute_force_changes(position, displacement, force_);
-  if (repulsion_ != nullptr) repulsion_->add_force_changes(position, displacement, force_);
+  physics_.compute_force_changes(time, position, displacement, force_);
   timer.begin_fluid();
-  mobility_->add_velocity({position, force_, blob_}, position, result);
-}
-
-std::vector<double> FiberDynamics::compute_energies(const ConstVectors& position) const {
-  std::vector<double> energy = springs_->compute_energies(position);
-  if (repulsion_ != nullptr) repulsion_->add_energies(position, energy);
-  return energy;
-}
-
-// One source and its own velocity, f / (4 pi viscosity blob), tell the viscosity of any mobility.
-double FiberDynamics::measure_viscosity() {
-  const Vectors position = to_device("skein::FiberDynamics::one", std::vector<Vec3>{Vec3{}});
-  const Vectors force = to_device("skein::FiberDynamics::one", std::vector<Vec3>{Vec3{1.0, 0.0, 0.0}});
-  const Vectors velocity("skein::FiberDynamics::one", 1);
-  const double blob = fibers_.front().config.blob;
-  mobility_->add_velocity({position, force, to_device("skein::FiberDynamics::one", std::vector<double>{blob})},
-                          position, velocity);
-  return 1.0 / (4.0 * std::numbers::pi * blob * to_host(ConstVectors(velocity)).front().x);
+  physics_.mobility->add_velocity({position, force_, physics_.blob}, position, result);
 }
 
 Linearization* FiberDynamics::linearization() {
   if (linearization_ == nullptr)
     linearization_ = std::make_unique<FiberLinearization>(
-        fibers_, measure_viscosity(),
-        [this](const ConstVectors& position, const ConstVectors& displacement, const Vectors& result) {
-          multiply(position, displacement, result);
-        });
+        physics_.fibers, physics_.viscosity,
+        [this](const double time, const ConstVectors& position, const ConstVectors& displacement,
+               const Vectors& result) { multiply(time, position, displacement, result); });
   return linearization_.get();
 }
 
 std::string FiberDynamics::find_fault(const ConstVectors& position) const {
-  for (std::size_t f = 0; f < fibers_.size(); ++f) {
-    const Fiber& fiber = fibers_[f];
-    const int node = find_faulty_node<ExecSpace>(
-        ExecSpace(), position,
-        {fiber.first_node, fiber.config.sections, fiber.config.nodes_per_section, fiber.config.radius}, burst_ratio);
-    if (node >= 0) return describe_fault(position, fiber, static_cast<int>(f), node);
-  }
-  return {};
+  const int node = physics_.sections.find_faulty_node(position, burst_ratio);
+  return node < 0 ? std::string() : describe_fault(position, node);
+}
+
+std::string FiberDynamics::describe_fault(const ConstVectors& position, const int node) const {
+  const auto next = std::find_if(physics_.fibers.begin(), physics_.fibers.end(),
+                                 [node](const Fiber& fiber) { return node < fiber.first_node + fiber.n_nodes(); });
+  const int in_fiber = node - next->first_node, n = next->config.nodes_per_section;
+  const Vec3 x = to_host(Kokkos::subview(position, std::make_pair(node, node + 1), Kokkos::ALL())).front();
+  return fmt::format(
+      "node {} (fiber {}, section {}, node {} of the section) at ({:.6g}, {:.6g}, {:.6g}) is not finite, or farther "
+      "than {:g} radii from its section's centre",
+      node, next->index, in_fiber / n, in_fiber % n, x.x, x.y, x.z, burst_ratio);
 }
 
 }  // namespace skein

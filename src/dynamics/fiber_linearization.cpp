@@ -54,7 +54,8 @@ std::vector<FiberLinearization::Frame> FiberLinearization::make_frames(const std
   return frames;
 }
 
-void FiberLinearization::set_position(const ConstVectors& position) {
+void FiberLinearization::set_position(const double time, const ConstVectors& position) {
+  time_ = time;
   Kokkos::deep_copy(ExecSpace(), position_, position);
   frames_ = make_frames(to_host(position));
   update_turns();
@@ -76,7 +77,9 @@ void FiberLinearization::update_turns() {
   }
 }
 
-void FiberLinearization::multiply(const ConstVectors& v, const Vectors& result) { product_(position_, v, result); }
+void FiberLinearization::multiply(const ConstVectors& v, const Vectors& result) {
+  product_(time_, position_, v, result);
+}
 
 bool FiberLinearization::factorize(const ConstVectors& position, const double scale) {
   const std::vector<Vec3> list = to_host(position);

@@ -1,6 +1,5 @@
 #include <skein/core/error.hpp>
 #include <skein/dynamics/make_integrator.hpp>
-#include <skein/physics/background_flow.hpp>
 #include <skein/solvers/euler.hpp>
 #include <skein/solvers/explicit_runge_kutta.hpp>
 #include <skein/solvers/method_selection.hpp>
@@ -14,13 +13,12 @@
 namespace skein {
 namespace {
 
-Rkc2Options make_options(const SceneConfig& scene, const double length, const double spacing) {
+Rkc2Options make_options(const SceneConfig& scene, const double length, const double spacing, const double time_scale) {
   Rkc2Options options;
   options.tolerance = scene.time.tolerance;
   options.length_scale = length;
   options.detail_scale = spacing;
-  const double flow_time = make_background_flow(scene.flows)->time_scale();
-  if (std::isfinite(flow_time)) options.time_scale = flow_time;
+  if (std::isfinite(time_scale)) options.time_scale = time_scale;
   options.fixed_step = scene.time.step;
   options.max_step = scene.time.max_step;
   options.displacement = 1e-5 * spacing;
@@ -51,17 +49,17 @@ MethodSelection select(const Rkc2Options& options, const std::vector<Fiber>& fib
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std::vector<Fiber>& fibers,
-                                            RightHandSide& rhs) {
+std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const Physics& physics, RightHandSide& rhs) {
+  const std::vector<Fiber>& fibers = physics.fibers;
   const int n_nodes = count_nodes(fibers);
   const double length = largest_length(fibers);
   double spacing = fibers.front().spacing();
   for (const Fiber& fiber : fibers) spacing = std::min(spacing, fiber.spacing());
   if (scene.time.method == "euler") return std::make_unique<Euler>(rhs, scene.time.step, length, n_nodes);
-  const Rkc2Options options = make_options(scene, length, spacing);
+  const Rkc2Options options = make_options(scene, length, spacing, physics.time_scale());
   if (scene.time.method != "auto") return make_controlled(scene.time.method, options, rhs, n_nodes);
   const MethodSelection selection = select(options, fibers, rhs);
-  return std::make_unique<SelectedIntegrator>(make_controlled(selection.method, options, rhs, n_nodes),
+  return std::make_unique<SelectedIntegrator>(rhs, make_controlled(selection.method, options, rhs, n_nodes),
                                               selection.reason);
 }
 

@@ -21,7 +21,7 @@ KOKKOS_INLINE_FUNCTION void list_touching(const ListSource<Space>& from, const i
 
 struct FarSinks {
   EntrySink<FarPair> far;
-  EntrySink<int> coarse, coarse_direct;
+  EntrySink<int> coarse, x_direct;
 };
 
 /// V and X: among the boxes that touch the parent and their children, those that do not touch box b.
@@ -36,7 +36,7 @@ KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b,
     const Box other = from.boxes(a);
     if (other.is_leaf() && other.sources.count > 0 && !touch(box, other)) {
       if (is_cheap)
-        sinks.coarse_direct.add(a);
+        sinks.x_direct.add(a);
       else
         sinks.coarse.add(a);
     }
@@ -58,7 +58,7 @@ void build_touching(const Space& space, DeviceOctree<Space>& tree) {
   lists.n_entries = 0;
   const auto count = tree.count;
   for (int level = 0; level < tree.n_levels(); ++level) {
-    const Run boxes = tree.level(level);
+    const IndexRange boxes = tree.level(level);
     for (const bool fills : {false, true}) {
       const ListSource<Space> from(tree);
       const auto first = lists.first;
@@ -85,36 +85,36 @@ template <class Space>
 void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sources_for_expansion) {
   const int n_boxes = tree.n_boxes();
   const auto n_first = static_cast<std::size_t>(n_boxes) + 1;
-  require_extent(tree.far_pairs.first, n_first, "far_first");
-  require_extent(tree.coarse_sources.first, n_first, "coarse_first");
-  require_extent(tree.coarse_direct.first, n_first, "coarse_direct_first");
+  require_extent(tree.v_list.first, n_first, "far_first");
+  require_extent(tree.x_list.first, n_first, "coarse_first");
+  require_extent(tree.x_direct.first, n_first, "coarse_direct_first");
   for (const bool fills : {false, true}) {
     const ListSource<Space> from(tree);
-    const auto far = tree.far_pairs;
-    const auto coarse = tree.coarse_sources, coarse_direct = tree.coarse_direct;
+    const auto far = tree.v_list;
+    const auto coarse = tree.x_list, x_direct = tree.x_direct;
     Kokkos::parallel_for(
         "skein::list_far", Kokkos::RangePolicy<Space>(space, 0, n_boxes), KOKKOS_LAMBDA(const int b) {
           FarSinks sinks;
           if (fills) {
             sinks.far.to = far.entries.data() + far.first(b);
             sinks.coarse.to = coarse.entries.data() + coarse.first(b);
-            sinks.coarse_direct.to = coarse_direct.entries.data() + coarse_direct.first(b);
+            sinks.x_direct.to = x_direct.entries.data() + x_direct.first(b);
           }
           list_far(from, b, min_sources_for_expansion, sinks);
           if (!fills) {
             far.first(b) = sinks.far.n;
             coarse.first(b) = sinks.coarse.n;
-            coarse_direct.first(b) = sinks.coarse_direct.n;
+            x_direct.first(b) = sinks.x_direct.n;
           }
         });
     if (fills) continue;
-    place_lists(space, tree.far_pairs, n_boxes, "far_pairs");
-    place_lists(space, tree.coarse_sources, n_boxes, "coarse_sources");
-    place_lists(space, tree.coarse_direct, n_boxes, "coarse_direct");
+    place_lists(space, tree.v_list, n_boxes, "v_list");
+    place_lists(space, tree.x_list, n_boxes, "x_list");
+    place_lists(space, tree.x_direct, n_boxes, "x_direct");
   }
-  const auto pairs = tree.far_pairs.entries;
+  const auto pairs = tree.v_list.entries;
   Kokkos::parallel_reduce(
-      "skein::find_transfers_met", Kokkos::RangePolicy<Space>(space, 0, tree.far_pairs.n_entries),
+      "skein::find_transfers_met", Kokkos::RangePolicy<Space>(space, 0, tree.v_list.n_entries),
       KOKKOS_LAMBDA(const int k, std::uint64_t& met) { met |= std::uint64_t{1} << transfer_index(pairs(k).transfer); },
       Kokkos::BOr<std::uint64_t>(tree.transfers));
 }

@@ -77,7 +77,7 @@ void DeviceFmmEvaluator::count_work(const FmmPlan& plan) {
   statistics.work.n_sources = static_cast<double>(tree_.n_sources);
   statistics.work.n_targets = static_cast<double>(tree_.n_targets);
   statistics.work.n_boxes = static_cast<double>(tree_.n_boxes());
-  statistics.work.far_pairs = static_cast<double>(tree_.far_pairs.n_entries);
+  statistics.work.far_pairs = static_cast<double>(tree_.v_list.n_entries);
   statistics.work.near_pairs = tree_.n_near_pairs;
 }
 

@@ -19,8 +19,8 @@ struct Leaves {
   OctreeCube cube;
   Kokkos::View<const Box*, Space> boxes;
   Kokkos::View<const int*, Space> target_leaves, near_end, target_order;
-  DeviceLists<Run, Space> near_sources;
-  DeviceLists<int, Space> fine_sources;
+  DeviceLists<IndexRange, Space> u_list;
+  DeviceLists<int, Space> w_list;
   DeviceNodes<Space> nodes;
   Field field;
   DeviceLevels<Space, Real> levels;
@@ -63,8 +63,9 @@ LeafParts<Space> make_parts(const Space& space, const DeviceOctree<Space>& tree)
 
 /// U: a run of sources, directly. @param sum  [3][part_targets]
 template <class Near, class Space, class Team>
-KOKKOS_INLINE_FUNCTION void team_add_near(const Team& team, const DeviceNodes<Space>& nodes, const Run& sources,
-                                          const Run& targets, const Vec3 center, NearSource<Near>* tile, double* sum) {
+KOKKOS_INLINE_FUNCTION void team_add_near(const Team& team, const DeviceNodes<Space>& nodes, const IndexRange& sources,
+                                          const IndexRange& targets, const Vec3 center, NearSource<Near>* tile,
+                                          double* sum) {
   for (int first = 0; first < sources.count; first += team_tile) {
     const int count = math::smaller(team_tile, sources.count - first);
     team.team_barrier();  // the tile may be overwritten
@@ -101,7 +102,8 @@ KOKKOS_INLINE_FUNCTION void team_add_surface(const Team& team, const DeviceNodes
                                              const DeviceOperatorSet<Real>& operators,
                                              const DeviceMatrix<Real>& to_density, const Real* coefficient,
                                              const int stride, const Real size, const Vec3 center,
-                                             const double half_width, const Run& targets, Real* density, double* sum) {
+                                             const double half_width, const IndexRange& targets, Real* density,
+                                             double* sum) {
   team.team_barrier();  // densities may be overwritten
   team_multiply<Field::n_columns>(team, to_density, coefficient, stride,
                                   StoreProduct<Real>{density, to_density.n_rows});
@@ -125,15 +127,16 @@ KOKKOS_INLINE_FUNCTION void team_add_surface(const Team& team, const DeviceNodes
 /// Everything that ends at some targets of a leaf.
 template <class Near, class Space, class Team, class Real, class Field>
 KOKKOS_INLINE_FUNCTION void team_add_part(const Team& team, const Leaves<Space, Real, Field>& leaves, const int leaf,
-                                          const Run& targets, NearSource<Near>* tile, Real* density, double* sum) {
+                                          const IndexRange& targets, NearSource<Near>* tile, Real* density,
+                                          double* sum) {
   const int b = leaves.target_leaves(leaf);
   const Box box = leaves.boxes(b);
   const Vec3 center = leaves.cube.center(box);
   const auto& coefficients = leaves.coefficients;
   for (int i = team.team_rank(); i < 3 * part_targets; i += team.team_size()) sum[i] = 0.0;
   team.team_barrier();  // sums are zero
-  for (int k = leaves.near_sources.first(leaf); k < leaves.near_end(leaf); ++k)
-    team_add_near<Near>(team, leaves.nodes, leaves.near_sources.entries(k), targets, center, tile, sum);
+  for (int k = leaves.u_list.first(leaf); k < leaves.near_end(leaf); ++k)
+    team_add_near<Near>(team, leaves.nodes, leaves.u_list.entries(k), targets, center, tile, sum);
   if (box.level >= first_far_level) {
     const DeviceOperatorSet<Real>& operators = leaves.levels.sets(box.level);
     const double half_width = leaves.cube.half_width(box.level);
@@ -141,8 +144,8 @@ KOKKOS_INLINE_FUNCTION void team_add_part(const Team& team, const Leaves<Space, 
                      coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size,
                      coefficients.stride, static_cast<Real>(outer_surface), center, half_width, targets, density, sum);
   }
-  for (int k = leaves.fine_sources.first(leaf); k < leaves.fine_sources.first(leaf + 1); ++k) {
-    const int w = leaves.fine_sources.entries(k);
+  for (int k = leaves.w_list.first(leaf); k < leaves.w_list.first(leaf + 1); ++k) {
+    const int w = leaves.w_list.entries(k);
     const Box& fine = leaves.boxes(w);
     const DeviceOperatorSet<Real>& operators = leaves.levels.sets(fine.level);
     const double half_width = leaves.cube.half_width(fine.level);
@@ -166,17 +169,9 @@ void add_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>&
   using Sums = TeamArray<Space, double>;
   const LeafParts<Space> parts = make_parts(space, tree);
   if (parts.n == 0) return;
-  const Leaves<Space, Real, Field> leaves{tree.cube,
-                                          tree.boxes,
-                                          tree.target_leaves,
-                                          tree.near_end,
-                                          tree.target_order(),
-                                          tree.near_sources,
-                                          tree.fine_sources,
-                                          nodes,
-                                          field,
-                                          levels,
-                                          coefficients};
+  const Leaves<Space, Real, Field> leaves{
+      tree.cube, tree.boxes, tree.target_leaves, tree.near_end, tree.target_order(), tree.u_list, tree.w_list, nodes,
+      field,     levels,     coefficients};
   const int n_densities = math::larger(1, Field::n_planes * levels.n_padded);
   const std::size_t n_bytes = Tile::shmem_size(team_tile) +
                               Densities::shmem_size(static_cast<std::size_t>(n_densities)) +
@@ -190,7 +185,7 @@ void add_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>&
         const Sums sum(team.team_scratch(scratch_level), 3 * part_targets);
         const int leaf = parts.leaf(team.league_rank());
         const int before = parts.place(team.league_rank()) * part_targets;
-        Run targets = leaves.boxes(leaves.target_leaves(leaf)).targets;
+        IndexRange targets = leaves.boxes(leaves.target_leaves(leaf)).targets;
         targets.first += before;
         targets.count = math::smaller(part_targets, targets.count - before);
         team_add_part<Near>(team, leaves, leaf, targets, tile.data(), density.data(), sum.data());

@@ -13,8 +13,8 @@ struct ListSource {
       : boxes(tree.boxes),
         touching_first(tree.touching.first),
         touching(tree.touching.entries),
-        direct_first(tree.coarse_direct.first),
-        direct(tree.coarse_direct.entries) {}
+        direct_first(tree.x_direct.first),
+        direct(tree.x_direct.entries) {}
 
   Kokkos::View<const Box*, Space> boxes;
   Kokkos::View<const int*, Space> touching_first, touching, direct_first, direct;

@@ -5,11 +5,11 @@ namespace {
 
 /// Runs of sources; one that begins where the last one ended prolongs it.
 struct RunSink {
-  Run* to = nullptr;
+  IndexRange* to = nullptr;
   int n = 0;
-  Run last;
+  IndexRange last;
 
-  KOKKOS_INLINE_FUNCTION void add(const Run& run) {
+  KOKKOS_INLINE_FUNCTION void add(const IndexRange& run) {
     if (n > 0 && run.first == last.first + last.count) {
       last.count += run.count;
     } else {
@@ -22,14 +22,14 @@ struct RunSink {
   /// Sorts the runs, of which there are few, and joins neighbours.
   KOKKOS_INLINE_FUNCTION void put_in_order() {
     for (int i = 1; i < n; ++i) {
-      const Run run = to[i];
+      const IndexRange run = to[i];
       int k = i;
       for (; k > 0 && to[k - 1].first > run.first; --k) to[k] = to[k - 1];
       to[k] = run;
     }
     const int n_before = n;
     n = 0;
-    for (int i = 0; i < n_before; ++i) add(Run(to[i]));
+    for (int i = 0; i < n_before; ++i) add(IndexRange(to[i]));
   }
 };
 
@@ -104,15 +104,15 @@ template <class Space>
 void build_near(const Space& space, DeviceOctree<Space>& tree, const int min_sources_for_expansion) {
   const int n_leaves = tree.n_target_leaves;
   const auto n_first = static_cast<std::size_t>(n_leaves) + 1;
-  require_extent(tree.near_sources.first, n_first, "near_first");
-  require_extent(tree.fine_sources.first, n_first, "fine_first");
+  require_extent(tree.u_list.first, n_first, "near_first");
+  require_extent(tree.w_list.first, n_first, "fine_first");
   require_extent(tree.near_end, n_first, "near_end");
   const ListSource<Space> from(tree);
   const auto leaves = tree.target_leaves;
   const auto near_end = tree.near_end;
   for (const bool fills : {false, true}) {
-    const auto near = tree.near_sources;
-    const auto fine = tree.fine_sources;
+    const auto near = tree.u_list;
+    const auto fine = tree.w_list;
     std::int64_t n_pairs = 0;
     Kokkos::parallel_reduce(
         "skein::list_near", Kokkos::RangePolicy<Space>(space, 0, n_leaves),
@@ -137,8 +137,8 @@ void build_near(const Space& space, DeviceOctree<Space>& tree, const int min_sou
         n_pairs);
     tree.n_near_pairs = static_cast<double>(n_pairs);
     if (fills) continue;
-    place_lists(space, tree.near_sources, n_leaves, "near_sources");
-    place_lists(space, tree.fine_sources, n_leaves, "fine_sources");
+    place_lists(space, tree.u_list, n_leaves, "u_list");
+    place_lists(space, tree.w_list, n_leaves, "w_list");
   }
 }
 

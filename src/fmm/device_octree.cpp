@@ -121,7 +121,7 @@ KOKKOS_INLINE_FUNCTION Box make_child(const Box& parent, const int parent_index,
 /// The boxes below one level, in the order of their parents and octants.
 template <class Space>
 void split_level(const Space& space, DeviceOctree<Space>& tree, const int level) {
-  const Run parents = tree.level(level);
+  const IndexRange parents = tree.level(level);
   const int shift = 3 * (tree.cube.max_depth - level - 1), split_above = tree.cube.split_above(level);
   const bool same_nodes = tree.same_nodes;
   const auto source_key = tree.sources.key, target_key = same_nodes ? tree.sources.key : tree.targets.key;
@@ -216,8 +216,8 @@ double DeviceOctree<Space>::bytes() const {
   const double n_ints =
       static_cast<double>(target_leaves.extent(0) + near_end.extent(0) + count.extent(0) + sort_memory.place.extent(0));
   return sources.bytes() + targets.bytes() + sort_memory.spare.bytes() + 4.0 * n_ints +
-         static_cast<double>(boxes.extent(0) * sizeof(Box)) + near_sources.bytes() + fine_sources.bytes() +
-         far_pairs.bytes() + coarse_sources.bytes() + touching.bytes() + coarse_direct.bytes();
+         static_cast<double>(boxes.extent(0) * sizeof(Box)) + u_list.bytes() + w_list.bytes() + v_list.bytes() +
+         x_list.bytes() + touching.bytes() + x_direct.bytes();
 }
 
 #define SKEIN_INSTANTIATE(S)                                                                           \

@@ -19,7 +19,7 @@ struct DeviceOctree {
 
   int n_levels() const { return static_cast<int>(level_first.size()) - 1; }
   int n_boxes() const { return level_first.back(); }
-  Run level(const int l) const {
+  IndexRange level(const int l) const {
     const auto i = static_cast<std::size_t>(l);
     return {level_first[i], level_first[i + 1] - level_first[i]};
   }
@@ -37,21 +37,21 @@ struct DeviceOctree {
 
   int n_target_leaves = 0;
   Kokkos::View<int*, Space> target_leaves;  ///< boxes
-  DeviceLists<Run, Space> near_sources;     ///< U, per target leaf: runs of sources, first(i) .. near_end(i) - 1
+  DeviceLists<IndexRange, Space> u_list;    ///< U, per target leaf: runs of sources, first(i) .. near_end(i) - 1
   Kokkos::View<int*, Space> near_end;
-  DeviceLists<int, Space> fine_sources;    ///< W, per target leaf: boxes
-  DeviceLists<FarPair, Space> far_pairs;   ///< V, per box
-  DeviceLists<int, Space> coarse_sources;  ///< X, per box: leaves
-  std::uint64_t transfers = 0;             ///< bit i: far pairs with transfer_index i exist
-  double largest_leaf = 0.0;               ///< half-width of the largest leaf with targets, length
-  double n_near_pairs = 0.0;               ///< of nodes
+  DeviceLists<int, Space> w_list;      ///< W, per target leaf: boxes
+  DeviceLists<FarPair, Space> v_list;  ///< V, per box
+  DeviceLists<int, Space> x_list;      ///< X, per box: leaves
+  std::uint64_t transfers = 0;         ///< bit i: far pairs with transfer_index i exist
+  double largest_leaf = 0.0;           ///< half-width of the largest leaf with targets, length
+  double n_near_pairs = 0.0;           ///< of nodes
 
   // What the build needs besides.
   KeyedOrder<Space> sources, targets;
   SortSpace<Space> sort_memory;
-  Kokkos::View<int*, Space> count;        ///< per box
-  DeviceLists<int, Space> touching;       ///< per box: boxes of its level that touch it, and coarser leaves that do
-  DeviceLists<int, Space> coarse_direct;  ///< what would be X pairs of leaves with too few targets for an expansion
+  Kokkos::View<int*, Space> count;   ///< per box
+  DeviceLists<int, Space> touching;  ///< per box: boxes of its level that touch it, and coarser leaves that do
+  DeviceLists<int, Space> x_direct;  ///< what would be X pairs of leaves with too few targets for an expansion
 };
 
 /// The parts of the build after the boxes: touching boxes, V and X ...

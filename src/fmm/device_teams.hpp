@@ -106,10 +106,10 @@ KOKKOS_INLINE_FUNCTION void team_gather(const Team& team, const Real* from, cons
 /// ends with threads that may be apart.
 /// @param tile  [team_tile], of the team
 template <class Space, class Team, class Real, class Field>
-KOKKOS_INLINE_FUNCTION void team_add_potentials(const Team& team, const DeviceNodes<Space>& nodes, const Run& run,
-                                                const Vec3 center, const double half_width, const Field& field,
-                                                const DeviceOperatorSet<Real>& operators, const Real size,
-                                                FarSource<Real>* tile, Real* potential) {
+KOKKOS_INLINE_FUNCTION void team_add_potentials(const Team& team, const DeviceNodes<Space>& nodes,
+                                                const IndexRange& run, const Vec3 center, const double half_width,
+                                                const Field& field, const DeviceOperatorSet<Real>& operators,
+                                                const Real size, FarSource<Real>* tile, Real* potential) {
   const double to_units = 1.0 / half_width;
   for (int first = 0; first < run.count; first += team_tile) {
     const int count = math::smaller(team_tile, run.count - first);

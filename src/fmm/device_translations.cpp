@@ -8,8 +8,8 @@ template <class Space, class Real, class Field>
 struct Passes {
   OctreeCube cube;
   Kokkos::View<const Box*, Space> boxes;
-  DeviceLists<FarPair, Space> far_pairs;
-  DeviceLists<int, Space> coarse_sources;
+  DeviceLists<FarPair, Space> v_list;
+  DeviceLists<int, Space> x_list;
   DeviceNodes<Space> nodes;
   Field field;
   DeviceLevels<Space, Real> levels;
@@ -35,15 +35,15 @@ struct PotentialScratch {
 
 /// Sources of leaves to their coefficients (P2M).
 template <class Space, class Real, class Field>
-void compute_leaf_coefficients(const Space& space, const Passes<Space, Real, Field>& passes, const Run boxes,
-                               const int team_size) {
+void run_p2m(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange boxes,
+             const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
   const PotentialScratch<Space, Real, Field> scratch(passes.levels);
   const int scratch_level = choose_scratch_level(scratch.bytes());
   const int n_values = scratch.n_values;
   Kokkos::parallel_for(
-      "skein::compute_leaf_coefficients",
-      make_team_policy(space, boxes.count, team_size, scratch_level, scratch.bytes()), KOKKOS_LAMBDA(const Team& team) {
+      "skein::run_p2m", make_team_policy(space, boxes.count, team_size, scratch_level, scratch.bytes()),
+      KOKKOS_LAMBDA(const Team& team) {
         const int b = boxes.first + team.league_rank();
         const Box box = passes.boxes(b);
         if (!box.is_leaf() || box.sources.count == 0) return;
@@ -63,14 +63,15 @@ void compute_leaf_coefficients(const Space& space, const Passes<Space, Real, Fie
 
 /// Children to parents of one level (M2M).
 template <class Space, class Real, class Field>
-void pass_up(const Space& space, const Passes<Space, Real, Field>& passes, const Run parents, const int team_size) {
+void run_m2m(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange parents,
+             const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
   const int stride = passes.coefficients.stride;
   const std::size_t n_bytes =
       TeamArray<Space, Real>::shmem_size(static_cast<std::size_t>(passes.coefficients.box_size));
   const int scratch_level = choose_scratch_level(n_bytes);
   Kokkos::parallel_for(
-      "skein::pass_up", make_team_policy(space, parents.count, team_size, scratch_level, n_bytes),
+      "skein::run_m2m", make_team_policy(space, parents.count, team_size, scratch_level, n_bytes),
       KOKKOS_LAMBDA(const Team& team) {
         const int p = parents.first + team.league_rank();
         const Box parent = passes.boxes(p);
@@ -97,23 +98,24 @@ void pass_up(const Space& space, const Passes<Space, Real, Field>& passes, const
 
 /// Across the V lists (M2L).
 template <class Space, class Real, class Field>
-void pass_across(const Space& space, const Passes<Space, Real, Field>& passes, const Run boxes, const int team_size) {
+void run_m2l(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange boxes,
+             const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
   const int stride = passes.coefficients.stride;
   const std::size_t n_bytes =
       2 * TeamArray<Space, Real>::shmem_size(static_cast<std::size_t>(passes.coefficients.box_size));
   const int scratch_level = choose_scratch_level(n_bytes);
   Kokkos::parallel_for(
-      "skein::pass_across", make_team_policy(space, boxes.count, team_size, scratch_level, n_bytes),
+      "skein::run_m2l", make_team_policy(space, boxes.count, team_size, scratch_level, n_bytes),
       KOKKOS_LAMBDA(const Team& team) {
         const int b = boxes.first + team.league_rank();
-        const int first = passes.far_pairs.first(b), last = passes.far_pairs.first(b + 1);
+        const int first = passes.v_list.first(b), last = passes.v_list.first(b + 1);
         if (first == last) return;
         const TeamArray<Space, Real> in(team.team_scratch(scratch_level), passes.coefficients.box_size);
         const TeamArray<Space, Real> middle(team.team_scratch(scratch_level), passes.coefficients.box_size);
         const DeviceOperatorSet<Real>& operators = passes.levels.sets(passes.boxes(b).level);
         for (int k = first; k < last; ++k) {
-          const FarPair pair = passes.far_pairs.entries(k);
+          const FarPair pair = passes.v_list.entries(k);
           const int index = transfer_index(pair.transfer), reflected = reflected_axes(pair.transfer);
           const DeviceMatrix<Real> last_factor = operators.transfer_last[index];
           const DeviceMatrix<Real> first_factor = operators.transfer_first[index];
@@ -140,17 +142,17 @@ void pass_across(const Space& space, const Passes<Space, Real, Field>& passes, c
 
 /// From the sources of X lists (P2L).
 template <class Space, class Real, class Field>
-void add_coarse_sources(const Space& space, const Passes<Space, Real, Field>& passes, const Run boxes,
-                        const int team_size) {
+void run_p2l(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange boxes,
+             const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
   const PotentialScratch<Space, Real, Field> scratch(passes.levels);
   const int scratch_level = choose_scratch_level(scratch.bytes());
   const int n_values = scratch.n_values;
   Kokkos::parallel_for(
-      "skein::add_coarse_sources", make_team_policy(space, boxes.count, team_size, scratch_level, scratch.bytes()),
+      "skein::run_p2l", make_team_policy(space, boxes.count, team_size, scratch_level, scratch.bytes()),
       KOKKOS_LAMBDA(const Team& team) {
         const int b = boxes.first + team.league_rank();
-        const int first = passes.coarse_sources.first(b), last = passes.coarse_sources.first(b + 1);
+        const int first = passes.x_list.first(b), last = passes.x_list.first(b + 1);
         if (first == last) return;
         const TeamArray<Space, Real> potential(team.team_scratch(scratch_level), n_values);
         const TeamArray<Space, FarSource<Real>> tile(team.team_scratch(scratch_level), team_tile);
@@ -159,7 +161,7 @@ void add_coarse_sources(const Space& space, const Passes<Space, Real, Field>& pa
         const double half_width = passes.cube.half_width(box.level);
         for (int i = team.team_rank(); i < n_values; i += team.team_size()) potential(i) = 0;
         for (int k = first; k < last; ++k)
-          team_add_potentials(team, passes.nodes, passes.boxes(passes.coarse_sources.entries(k)).sources,
+          team_add_potentials(team, passes.nodes, passes.boxes(passes.x_list.entries(k)).sources,
                               passes.cube.center(box), half_width, passes.field.at(half_width), operators,
                               static_cast<Real>(inner_surface), tile.data(), potential.data());
         team.team_barrier();  // potentials are complete
@@ -171,14 +173,15 @@ void add_coarse_sources(const Space& space, const Passes<Space, Real, Field>& pa
 
 /// Parents to children of one level (L2L).
 template <class Space, class Real, class Field>
-void pass_down(const Space& space, const Passes<Space, Real, Field>& passes, const Run boxes, const int team_size) {
+void run_l2l(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange boxes,
+             const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
   const int stride = passes.coefficients.stride;
   const std::size_t n_bytes =
       TeamArray<Space, Real>::shmem_size(static_cast<std::size_t>(passes.coefficients.box_size));
   const int scratch_level = choose_scratch_level(n_bytes);
   Kokkos::parallel_for(
-      "skein::pass_down", make_team_policy(space, boxes.count, team_size, scratch_level, n_bytes),
+      "skein::run_l2l", make_team_policy(space, boxes.count, team_size, scratch_level, n_bytes),
       KOKKOS_LAMBDA(const Team& team) {
         const int b = boxes.first + team.league_rank();
         const Box box = passes.boxes(b);
@@ -206,17 +209,17 @@ void compute_coefficients_by_teams(const Space& space, const DeviceOctree<Space>
   Kokkos::deep_copy(space, coefficients.source, Real(0));
   Kokkos::deep_copy(space, coefficients.target, Real(0));
   if (tree.n_levels() <= first_far_level) return;
-  const Passes<Space, Real, Field> passes{tree.cube, tree.boxes, tree.far_pairs, tree.coarse_sources,
-                                          nodes,     field,      levels,         coefficients};
+  const Passes<Space, Real, Field> passes{tree.cube, tree.boxes, tree.v_list, tree.x_list,
+                                          nodes,     field,      levels,      coefficients};
   const int first = tree.level(first_far_level).first;
-  const Run boxes{first, tree.n_boxes() - first};
-  compute_leaf_coefficients(space, passes, boxes, team_size);
+  const IndexRange boxes{first, tree.n_boxes() - first};
+  run_p2m(space, passes, boxes, team_size);
   for (int level = tree.n_levels() - 2; level >= first_far_level; --level)
-    pass_up(space, passes, tree.level(level), team_size);
-  pass_across(space, passes, boxes, team_size);
-  if (tree.coarse_sources.n_entries > 0) add_coarse_sources(space, passes, boxes, team_size);
+    run_m2m(space, passes, tree.level(level), team_size);
+  run_m2l(space, passes, boxes, team_size);
+  if (tree.x_list.n_entries > 0) run_p2l(space, passes, boxes, team_size);
   for (int level = first_far_level + 1; level < tree.n_levels(); ++level)
-    pass_down(space, passes, tree.level(level), team_size);
+    run_l2l(space, passes, tree.level(level), team_size);
 }
 
 #define SKEIN_INSTANTIATE_FOR(S, Real, Field)                                                                          \

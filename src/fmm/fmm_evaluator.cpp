@@ -57,8 +57,8 @@ template <class Near, class Real, class Field>
 void FmmEvaluator::add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
                               const Coefficients<Real>& coefficients) {
   if (!is_symmetric_) {
-    add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, {tree_.near_sources(), {}},
-                                           tasks_, own_velocity_);
+    add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, {tree_.u_list(), {}}, tasks_,
+                                           own_velocity_);
     return;
   }
   resize(near_velocity_, sorted_.target.extent_int(0), "near_velocity");
@@ -110,11 +110,11 @@ void FmmEvaluator::count_work(const FmmPlan& plan) {
   statistics.work.n_sources = static_cast<double>(tree_.source_order().extent(0));
   statistics.work.n_targets = static_cast<double>(tree_.target_order().extent(0));
   statistics.work.n_boxes = static_cast<double>(tree_.boxes().size());
-  statistics.work.far_pairs = static_cast<double>(tree_.far_pairs().entries.size());
+  statistics.work.far_pairs = static_cast<double>(tree_.v_list().entries.size());
   statistics.work.near_pairs = 0.0;
   for (int leaf = 0; leaf < statistics.n_leaves; ++leaf) {
     double n_sources = 0.0;
-    for (const Run* run = tree_.near_sources().begin(leaf); run != tree_.near_sources().end(leaf); ++run)
+    for (const IndexRange* run = tree_.u_list().begin(leaf); run != tree_.u_list().end(leaf); ++run)
       n_sources += run->count;
     const auto box = static_cast<std::size_t>(tree_.target_leaves()[static_cast<std::size_t>(leaf)]);
     statistics.work.near_pairs += n_sources * tree_.boxes()[box].targets.count;

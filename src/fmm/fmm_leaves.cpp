@@ -21,7 +21,7 @@ struct LeafTargets {
   int n = 0;
 
   int n_padded() const { return padded<Real>(n); }
-  void load(const HostVectors& target, const Run run, const Vec3 center, const double half_width) {
+  void load(const HostVectors& target, const IndexRange run, const Vec3 center, const double half_width) {
     n = run.count;
     const double origin[3] = {center.x, center.y, center.z}, to_units = 1.0 / half_width;
     for (int c = 0; c < 3; ++c) {
@@ -83,7 +83,7 @@ void add_near_tile(const LeafTargets<Real>& targets, const int first, const Near
 
 /// U: every source of the runs, directly.
 template <class Real>
-void add_near_field(const SortedNodes& nodes, const Run* runs, const Run* last_run, const Vec3 center,
+void add_near_field(const SortedNodes& nodes, const IndexRange* runs, const IndexRange* last_run, const Vec3 center,
                     const LeafTargets<Real>& targets, LeafSum& sum) {
   constexpr int width = simd::width<Real>;
   NearTile<Real> sources;
@@ -134,7 +134,7 @@ void add_surface_velocity(const Field& field, const OperatorSet<Real>& operators
 std::vector<TargetTask> make_target_tasks(const Octree& tree) {
   std::vector<TargetTask> tasks;
   for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
-    const Run targets = box_of(tree, tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets;
+    const IndexRange targets = box_of(tree, tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets;
     for (int i = 0; i < targets.count; i += task_targets)
       tasks.push_back({leaf, {targets.first + i, math::smaller(task_targets, targets.count - i)}});
   }
@@ -160,7 +160,7 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
       add_near_field<Near>(nodes, near.sources.begin(task.leaf), near.sources.end(task.leaf), center, targets, sum);
     }
     const bool has_far = box.level >= first_far_level;
-    if (has_far || tree.fine_sources().size(task.leaf) > 0) {
+    if (has_far || tree.w_list().size(task.leaf) > 0) {
       const int level = math::larger(box.level, first_far_level);
       const auto& operators = *levels[static_cast<std::size_t>(level)];
       LeafTargets<Real> targets;
@@ -172,7 +172,7 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
                              coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size,
                              coefficients.stride, outer_surface, half_width, targets, density.get(), sum);
       }
-      for (const int* w = tree.fine_sources().begin(task.leaf); w != tree.fine_sources().end(task.leaf); ++w) {
+      for (const int* w = tree.w_list().begin(task.leaf); w != tree.w_list().end(task.leaf); ++w) {
         const Box& fine = box_of(tree, *w);
         const auto& fine_operators = *levels[static_cast<std::size_t>(fine.level)];
         const double half_width = tree.half_width(fine.level);

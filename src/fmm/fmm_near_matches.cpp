@@ -9,7 +9,7 @@ namespace skein {
 namespace {
 
 /// Even parts of whole packs, but for the last.
-void cut_leaf(const Run nodes, std::vector<Run>& tiles) {
+void cut_leaf(const IndexRange nodes, std::vector<IndexRange>& tiles) {
   const int n_tiles = math::ceil_div(nodes.count, side_nodes);
   const int size = math::ceil_div(nodes.count, n_tiles * tile_step) * tile_step;
   for (int i = 0; i < nodes.count; i += size) tiles.push_back({nodes.first + i, math::smaller(size, nodes.count - i)});
@@ -37,12 +37,12 @@ NearMatches make_near_matches(const Octree& tree) {
   first_tile.push_back(static_cast<int>(near.tiles.size()));
   const auto tiles_of = [&](const int leaf) {
     const auto i = static_cast<std::size_t>(leaf);
-    return Run{first_tile[i], first_tile[i + 1] - first_tile[i]};
+    return IndexRange{first_tile[i], first_tile[i + 1] - first_tile[i]};
   };
   for (int leaf = 0; leaf < n_leaves; ++leaf) {
-    const Run own = tiles_of(leaf);
+    const IndexRange own = tiles_of(leaf);
     for (const int* partner = tree.near_partners().begin(leaf); partner != tree.near_partners().end(leaf); ++partner) {
-      const Run others = tiles_of(*partner);
+      const IndexRange others = tiles_of(*partner);
       for (int i = own.first; i < own.first + own.count; ++i)
         for (int j = *partner == leaf ? i : others.first; j < others.first + others.count; ++j)
           near.matches.push_back({i, j});

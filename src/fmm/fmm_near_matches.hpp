@@ -8,7 +8,7 @@ namespace skein {
 /// The near field of nodes that are sources and targets alike, each pair of nodes once: tiles of leaves, and who meets
 /// whom in which order.
 struct NearMatches {
-  std::vector<Run> tiles;  ///< in the order of the tree
+  std::vector<IndexRange> tiles;  ///< in the order of the tree
   std::vector<Match> matches;
 };
 

@@ -52,7 +52,7 @@ void add_potentials(const Field& field, const OperatorSet<Real>& operators, cons
 }
 
 template <class Real, class Field>
-void add_run_potentials(const SortedNodes& nodes, const Run run, const Vec3 center, const double half_width,
+void add_run_potentials(const SortedNodes& nodes, const IndexRange run, const Vec3 center, const double half_width,
                         const Field& field, const OperatorSet<Real>& operators, const double size, Real* potential) {
   constexpr int width = simd::width<Real>;
   FarSource<Real> sources[tile];
@@ -69,9 +69,9 @@ void add_run_potentials(const SortedNodes& nodes, const Run run, const Vec3 cent
 
 /// Sources of leaves to their coefficients (P2M); zero for other boxes.
 template <class Real, class Field>
-void compute_leaf_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
-                               const std::vector<const OperatorSet<Real>*>& levels,
-                               const Coefficients<Real>& coefficients, const Run boxes) {
+void run_p2m(const Octree& tree, const SortedNodes& nodes, const Field& field,
+             const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
+             const IndexRange boxes) {
   for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
     const Box& box = box_of(tree, b);
     Real* const own = coefficients.source.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
@@ -175,10 +175,10 @@ struct Branches {
     roots = tree.level(level);
   }
   /// The boxes of a branch, level by level.
-  static std::vector<Run> boxes_of(const Octree& tree, const int root) {
-    std::vector<Run> runs = {{root, 1}};
+  static std::vector<IndexRange> boxes_of(const Octree& tree, const int root) {
+    std::vector<IndexRange> runs = {{root, 1}};
     while (true) {
-      Run below;
+      IndexRange below;
       for (int b = runs.back().first; b < runs.back().first + runs.back().count; ++b) {
         const Box& box = box_of(tree, b);
         if (box.is_leaf()) continue;
@@ -191,13 +191,13 @@ struct Branches {
   }
 
   int level;
-  Run roots;
+  IndexRange roots;
 };
 
 /// Children to parents of one level (M2M).
 template <class Real, class Field>
-void pass_up(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
-             const Coefficients<Real>& coefficients, const int level, const Run parents) {
+void run_m2m(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+             const Coefficients<Real>& coefficients, const int level, const IndexRange parents) {
   if (level + 1 >= tree.n_levels()) return;
   const auto& own = operators_of(levels, level);
   const auto& below = operators_of(levels, level + 1);
@@ -230,34 +230,34 @@ void compute_source_coefficients(const Octree& tree, const SortedNodes& nodes, c
   const Branches branches(tree);
   Kokkos::parallel_for("skein::compute_source_coefficients", Tasks(HostSpace(), 0, branches.roots.count),
                        [&](const int k) {
-                         const std::vector<Run> runs = Branches::boxes_of(tree, branches.roots.first + k);
+                         const std::vector<IndexRange> runs = Branches::boxes_of(tree, branches.roots.first + k);
                          for (int depth = static_cast<int>(runs.size()) - 1; depth >= 0; --depth) {
-                           const Run boxes = runs[static_cast<std::size_t>(depth)];
-                           compute_leaf_coefficients<Real, Field>(tree, nodes, field, levels, coefficients, boxes);
-                           pass_up<Real, Field>(tree, levels, coefficients, branches.level + depth, boxes);
+                           const IndexRange boxes = runs[static_cast<std::size_t>(depth)];
+                           run_p2m<Real, Field>(tree, nodes, field, levels, coefficients, boxes);
+                           run_m2m<Real, Field>(tree, levels, coefficients, branches.level + depth, boxes);
                          }
                        });
   for (int level = branches.level - 1; level >= first_far_level; --level) {
-    compute_leaf_coefficients<Real, Field>(tree, nodes, field, levels, coefficients, tree.level(level));
-    pass_up<Real, Field>(tree, levels, coefficients, level, tree.level(level));
+    run_p2m<Real, Field>(tree, nodes, field, levels, coefficients, tree.level(level));
+    run_m2m<Real, Field>(tree, levels, coefficients, level, tree.level(level));
   }
 }
 
 /// Boxes whose V lists make one task: of one level.
-std::vector<Run> make_transfer_tasks(const Octree& tree) {
+std::vector<IndexRange> make_transfer_tasks(const Octree& tree) {
   constexpr int min_pairs = 48, max_boxes = 64;
-  std::vector<Run> tasks;
+  std::vector<IndexRange> tasks;
   for (int level = first_far_level; level < tree.n_levels(); ++level) {
-    const Run boxes = tree.level(level);
-    Run task{boxes.first, 0};
+    const IndexRange boxes = tree.level(level);
+    IndexRange task{boxes.first, 0};
     int n_pairs = 0;
     const int enough =
-        math::larger(min_pairs, (tree.far_pairs().first[static_cast<std::size_t>(boxes.first + boxes.count)] -
-                                 tree.far_pairs().first[static_cast<std::size_t>(boxes.first)]) /
+        math::larger(min_pairs, (tree.v_list().first[static_cast<std::size_t>(boxes.first + boxes.count)] -
+                                 tree.v_list().first[static_cast<std::size_t>(boxes.first)]) /
                                     16);
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
       ++task.count;
-      n_pairs += tree.far_pairs().size(b);
+      n_pairs += tree.v_list().size(b);
       if (n_pairs >= enough || task.count == max_boxes) {
         tasks.push_back(task);
         task = {b + 1, 0};
@@ -271,11 +271,11 @@ std::vector<Run> make_transfer_tasks(const Octree& tree) {
 
 /// Across the V lists (M2L) and from the sources of X lists (P2L); overwrites the coefficients for targets.
 template <class Real, class Field>
-void pass_across(const Octree& tree, const SortedNodes& nodes, const Field& field,
-                 const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
-  const std::vector<Run> tasks = make_transfer_tasks(tree);
+void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& field,
+                     const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
+  const std::vector<IndexRange> tasks = make_transfer_tasks(tree);
   const auto across = [&](const int t) {
-    const Run boxes = tasks[static_cast<std::size_t>(t)];
+    const IndexRange boxes = tasks[static_cast<std::size_t>(t)];
     const int level = box_of(tree, boxes.first).level;
     const auto& operators = operators_of(levels, level);
     Real* const all = coefficients.target.data();
@@ -283,8 +283,8 @@ void pass_across(const Octree& tree, const SortedNodes& nodes, const Field& fiel
     std::fill(all + boxes.first * size, all + (boxes.first + boxes.count) * size, Real(0));
 
     // Pairs in the order of their transfer vectors, and of the lists among equals.
-    const FarPair* const pairs = tree.far_pairs().begin(boxes.first);
-    const int n_pairs = static_cast<int>(tree.far_pairs().end(boxes.first + boxes.count - 1) - pairs);
+    const FarPair* const pairs = tree.v_list().begin(boxes.first);
+    const int n_pairs = static_cast<int>(tree.v_list().end(boxes.first + boxes.count - 1) - pairs);
     int place[n_transfers + 1] = {};
     for (int k = 0; k < n_pairs; ++k) ++place[transfer_index(pairs[k].transfer) + 1];
     for (int index = 0; index < n_transfers; ++index) place[index + 1] += place[index];
@@ -308,12 +308,12 @@ void pass_across(const Octree& tree, const SortedNodes& nodes, const Field& fiel
     }
 
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
-      if (tree.coarse_sources().size(b) == 0) continue;
+      if (tree.x_list().size(b) == 0) continue;
       const double half_width = tree.half_width(level);
       const int n_values = Field::n_planes * operators.n_padded;
       const HostScratch<Real> potential(n_values), sum(static_cast<int>(size));
       std::fill(potential.get(), potential.get() + n_values, Real(0));
-      for (const int* a = tree.coarse_sources().begin(b); a != tree.coarse_sources().end(b); ++a)
+      for (const int* a = tree.x_list().begin(b); a != tree.x_list().end(b); ++a)
         add_run_potentials(nodes, box_of(tree, *a).sources, tree.center(box_of(tree, b)), half_width,
                            field.at(half_width), operators, inner_surface, potential.get());
       operators.to_target.apply(potential.get(), operators.to_target.n_columns, Field::n_columns, sum.get(),
@@ -322,13 +322,13 @@ void pass_across(const Octree& tree, const SortedNodes& nodes, const Field& fiel
                      coefficients.stride);
     }
   };
-  Kokkos::parallel_for("skein::pass_across", Tasks(HostSpace(), 0, static_cast<int>(tasks.size())), across);
+  Kokkos::parallel_for("skein::run_m2l_and_p2l", Tasks(HostSpace(), 0, static_cast<int>(tasks.size())), across);
 }
 
 /// Parents to children of one level (L2L).
 template <class Real, class Field>
-void pass_down(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
-               const Coefficients<Real>& coefficients, const int level, const Run boxes) {
+void run_l2l(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+             const Coefficients<Real>& coefficients, const int level, const IndexRange boxes) {
   const auto& own = operators_of(levels, level);
   const auto& above = operators_of(levels, level - 1);
   PairBatch<Real, Field> batch(above.rank_padded, own.rank_padded);
@@ -348,15 +348,15 @@ void pass_down(const Octree& tree, const std::vector<const OperatorSet<Real>*>& 
 }
 
 template <class Real, class Field>
-void pass_down_all(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
-                   const Coefficients<Real>& coefficients) {
+void run_l2l_of_all_levels(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+                           const Coefficients<Real>& coefficients) {
   const Branches branches(tree);
   for (int level = first_far_level + 1; level <= branches.level; ++level)
-    pass_down<Real, Field>(tree, levels, coefficients, level, tree.level(level));
-  Kokkos::parallel_for("skein::pass_down", Tasks(HostSpace(), 0, branches.roots.count), [&](const int k) {
-    const std::vector<Run> runs = Branches::boxes_of(tree, branches.roots.first + k);
+    run_l2l<Real, Field>(tree, levels, coefficients, level, tree.level(level));
+  Kokkos::parallel_for("skein::run_l2l", Tasks(HostSpace(), 0, branches.roots.count), [&](const int k) {
+    const std::vector<IndexRange> runs = Branches::boxes_of(tree, branches.roots.first + k);
     for (int depth = 1; depth < static_cast<int>(runs.size()); ++depth)
-      pass_down<Real, Field>(tree, levels, coefficients, branches.level + depth, runs[static_cast<std::size_t>(depth)]);
+      run_l2l<Real, Field>(tree, levels, coefficients, branches.level + depth, runs[static_cast<std::size_t>(depth)]);
   });
 }
 
@@ -367,8 +367,8 @@ void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Fi
                           const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
   if (tree.n_levels() <= first_far_level) return;
   compute_source_coefficients<Real, Field>(tree, nodes, field, levels, coefficients);
-  pass_across<Real, Field>(tree, nodes, field, levels, coefficients);
-  pass_down_all<Real, Field>(tree, levels, coefficients);
+  run_m2l_and_p2l<Real, Field>(tree, nodes, field, levels, coefficients);
+  run_l2l_of_all_levels<Real, Field>(tree, levels, coefficients);
 }
 
 #define SKEIN_INSTANTIATE(Real, Field)                                                             \

@@ -18,7 +18,7 @@ struct SortedNodes {
 /// Targets of one leaf, or some of them where it has many: one task of the near field.
 struct TargetTask {
   int leaf = 0;  ///< index in Octree::target_leaves
-  Run targets;
+  IndexRange targets;
 };
 
 inline constexpr int task_targets = 256;
@@ -43,8 +43,8 @@ void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Fi
 
 /// The near field of the leaves' targets: what is there already, and what is still to be summed.
 struct NearField {
-  const ListOfLists<Run>& sources;  ///< per target leaf
-  HostVectors velocity;             ///< [n_targets, 3] in the order of the tree, or empty
+  const ListOfLists<IndexRange>& sources;  ///< per target leaf
+  HostVectors velocity;                    ///< [n_targets, 3] in the order of the tree, or empty
 };
 
 /// velocity(original index) += near field + far field of the coefficients, leaf by leaf.

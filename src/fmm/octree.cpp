@@ -48,7 +48,7 @@ double Octree::bytes() const {
                          (same_nodes_ ? 0.0 : static_cast<double>(target_order_.size())) +
                          static_cast<double>(spare_order_.size());
   return 12.0 * n_nodes + static_cast<double>(boxes_.capacity() * sizeof(Box)) + of_list(touching_) + of_list(near_) +
-         of_list(one_way_) + of_list(partners_) + of_list(fine_) + of_list(coarse_) + of_list(coarse_direct_) +
+         of_list(one_way_) + of_list(partners_) + of_list(fine_) + of_list(coarse_) + of_list(x_direct_) +
          of_list(far_);
 }
 
@@ -155,7 +155,7 @@ void Octree::build_lists(const OctreeRules& rules) {
   touching_.clear();
   far_.clear();
   coarse_.clear();
-  coarse_direct_.clear();
+  x_direct_.clear();
   near_.clear();
   one_way_.clear();
   partners_.clear();
@@ -176,7 +176,7 @@ void Octree::build_lists(const OctreeRules& rules) {
           touching_.entries.push_back(a);
         } else if (other.sources.count > 0 && box.targets.count > 0) {
           const bool is_cheap = box.is_leaf() && box.targets.count < rules.min_sources_for_expansion;
-          (is_cheap ? coarse_direct_ : coarse_).entries.push_back(a);
+          (is_cheap ? x_direct_ : coarse_).entries.push_back(a);
         }
         continue;
       }
@@ -194,7 +194,7 @@ void Octree::build_lists(const OctreeRules& rules) {
     touching_.end_list();
     far_.end_list();
     coarse_.end_list();
-    coarse_direct_.end_list();
+    x_direct_.end_list();
   }
   for (int b = 0; b < static_cast<int>(boxes_.size()); ++b) {
     const Box& box = boxes_[static_cast<std::size_t>(b)];
@@ -237,9 +237,9 @@ void Octree::add_leaf_lists(const int leaf, const OctreeRules& rules, std::vecto
       for (int i = 0; i < other.n_children; ++i) stack.push_back(other.first_child + i);
     }
   }
-  for (const int* a = coarse_direct_.begin(leaf); a != coarse_direct_.end(leaf); ++a) add_near(leaf, *a);
+  for (const int* a = x_direct_.begin(leaf); a != x_direct_.end(leaf); ++a) add_near(leaf, *a);
   std::sort(near_.entries.begin() + first_run, near_.entries.end(),
-            [](const Run a, const Run b) { return a.first < b.first; });
+            [](const IndexRange a, const IndexRange b) { return a.first < b.first; });
   // Neighbours in the order of the tree become one run.
   auto last = static_cast<std::size_t>(first_run);
   for (std::size_t k = last + 1; k < near_.entries.size(); ++k) {

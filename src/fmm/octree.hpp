@@ -35,7 +35,7 @@ class Octree {
 
   const std::vector<Box>& boxes() const { return boxes_; }
   int n_levels() const { return static_cast<int>(level_first_.size()) - 1; }
-  Run level(const int l) const {
+  IndexRange level(const int l) const {
     const auto i = static_cast<std::size_t>(l);
     return {level_first_[i], level_first_[i + 1] - level_first_[i]};
   }
@@ -51,15 +51,15 @@ class Octree {
   const Kokkos::View<int*, HostSpace>& target_order() const { return target_order_; }
 
   const std::vector<int>& target_leaves() const { return target_leaves_; }  ///< leaves with targets
-  const ListOfLists<Run>& near_sources() const { return near_; }            ///< U, per target leaf: runs of sources
+  const ListOfLists<IndexRange>& u_list() const { return near_; }           ///< U, per target leaf: runs of sources
   /// U where sources are the targets, each pair of leaves once: for a target leaf the leaves (in target_leaves) from
   /// itself on that it exchanges velocities with, and the runs that it only receives from.
   const ListOfLists<int>& near_partners() const { return partners_; }
-  const ListOfLists<Run>& one_way_sources() const { return one_way_; }
+  const ListOfLists<IndexRange>& one_way_sources() const { return one_way_; }
   bool has_same_nodes() const { return same_nodes_; }
-  const ListOfLists<int>& fine_sources() const { return fine_; }      ///< W, per target leaf: boxes
-  const ListOfLists<FarPair>& far_pairs() const { return far_; }      ///< V, per box
-  const ListOfLists<int>& coarse_sources() const { return coarse_; }  ///< X, per box: leaves
+  const ListOfLists<int>& w_list() const { return fine_; }     ///< W, per target leaf: boxes
+  const ListOfLists<FarPair>& v_list() const { return far_; }  ///< V, per box
+  const ListOfLists<int>& x_list() const { return coarse_; }   ///< X, per box: leaves
   /// Bit i is set where far pairs with transfer_index i exist.
   std::uint64_t transfers_met() const { return transfers_met_; }
 
@@ -81,10 +81,10 @@ class Octree {
   Kokkos::View<std::uint64_t*, HostSpace> spare_key_;
   ListOfLists<int> touching_;  ///< per box: boxes of its level that touch it, and coarser leaves that do
   std::vector<int> target_leaves_;
-  ListOfLists<Run> near_, one_way_;
+  ListOfLists<IndexRange> near_, one_way_;
   ListOfLists<int> partners_;
   ListOfLists<int> fine_, coarse_;
-  ListOfLists<int> coarse_direct_;  ///< what would be X pairs of leaves with too few targets for an expansion
+  ListOfLists<int> x_direct_;  ///< what would be X pairs of leaves with too few targets for an expansion
   ListOfLists<FarPair> far_;
   std::uint64_t transfers_met_ = 0;
   bool same_nodes_ = false;

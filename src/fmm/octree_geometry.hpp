@@ -3,7 +3,7 @@
 #include <skein/arrays/types.hpp>
 
 #include "fmm/morton.hpp"
-#include "kernels/node_run.hpp"
+#include "kernels/index_range.hpp"
 
 // What the octrees of hosts and of devices have in common.
 
@@ -14,10 +14,10 @@ struct Box {
   int level = 0;
   int parent = -1;
   int first_child = 0;
-  int n_children = 0;    ///< 0: a leaf
-  int octant = 0;        ///< in the parent: bit c is set on the upper side of axis c
-  int cell[3] = {};      ///< position in the grid of its level
-  Run sources, targets;  ///< in the order of the tree
+  int n_children = 0;           ///< 0: a leaf
+  int octant = 0;               ///< in the parent: bit c is set on the upper side of axis c
+  int cell[3] = {};             ///< position in the grid of its level
+  IndexRange sources, targets;  ///< in the order of the tree
   KOKKOS_INLINE_FUNCTION bool is_leaf() const { return n_children == 0; }
 };
 

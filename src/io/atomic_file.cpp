@@ -1,5 +1,5 @@
 #include <skein/core/error.hpp>
-#include <skein/core/kill_point.hpp>
+#include <skein/core/milestone.hpp>
 #include <skein/io/atomic_file.hpp>
 
 #include <fcntl.h>
@@ -40,7 +40,7 @@ void reach_point(const std::filesystem::path& path, const char* point) {
   const std::string kind = folder == "checkpoints" ? "checkpoint"
                            : folder == "segments"  ? "segment"
                                                    : path.filename().string();
-  reach_kill_point(kind + "." + point);
+  pass_milestone(kind + "." + point);
 }
 
 }  // namespace

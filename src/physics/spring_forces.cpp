@@ -2,6 +2,7 @@
 #include <skein/physics/spring_forces.hpp>
 
 #include "device_list.hpp"
+#include "force_table.hpp"
 #include "kernels/spring_force.hpp"
 #include "kernels/spring_strain.hpp"
 #include "kernels/spring_tangent.hpp"
@@ -77,30 +78,42 @@ SpringForces::~SpringForces() = default;
 SpringForces::SpringForces(SpringForces&&) noexcept = default;
 SpringForces& SpringForces::operator=(SpringForces&&) noexcept = default;
 
-void SpringForces::compute_forces(const ConstVectors& position, const Vectors& force) const {
-  compute_spring_force<ExecSpace>(ExecSpace(), *springs_, position, force);
+ForcePromises SpringForces::promises() const {
+  return {.is_balanced = true,
+          .is_torque_free = true,
+          .is_conservative = true,
+          .is_steady = true,
+          .is_frame_indifferent = true};
 }
 
-void SpringForces::compute_force_changes(const ConstVectors& position, const ConstVectors& displacement,
-                                         const Vectors& change) const {
-  compute_spring_force_change<ExecSpace>(ExecSpace(), *springs_, position, displacement, change);
+void SpringForces::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {
+  add_spring_force<ExecSpace>(ExecSpace(), *springs_, position, force);
+}
+
+void SpringForces::add_force_changes(double /*time*/, const ConstVectors& position, const ConstVectors& displacement,
+                                     const Vectors& change) const {
+  add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, position, displacement, change);
 }
 
 double SpringForces::compute_largest_strain(const ConstVectors& position) const {
   return skein::compute_largest_strain<ExecSpace>(ExecSpace(), *springs_, position);
 }
 
-std::vector<double> SpringForces::compute_energies(const ConstVectors& position) const {
+void SpringForces::add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const {
+  SKEIN_REQUIRE(energy.size() == n_sections_.size(), "one energy for each fiber");
   compute_section_energy<ExecSpace>(ExecSpace(), *springs_, position, section_energy_);
   const std::vector<double> section_energy = to_host(section_energy_);
-
-  std::vector<double> energy;
   auto section = section_energy.begin();
-  for (const int n_sections : n_sections_) {
-    energy.push_back(std::accumulate(section, section + n_sections, 0.0));
-    section += n_sections;
+  for (std::size_t f = 0; f < energy.size(); ++f) {
+    energy[f] += std::accumulate(section, section + n_sections_[f], 0.0);
+    section += n_sections_[f];
   }
-  return energy;
+}
+
+std::string SpringForces::describe() const { return "springs"; }
+
+void append_springs(const SceneConfig& /*scene*/, const std::vector<Fiber>& fibers, ForceList& forces) {
+  forces.push_back(std::make_unique<SpringForces>(fibers));
 }
 
 }  // namespace skein

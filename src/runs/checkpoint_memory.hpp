@@ -32,23 +32,4 @@ class MemoryRestorer final : public MemoryVisitor {
 
 void visit_memory(MemoryVisitor& visitor, State& state);
 
-/// What an object remembers now, to be brought back later.
-class Remembered {
- public:
-  template <class Object>
-  explicit Remembered(Object& object) {
-    MemorySaver saver(memory_);
-    object.visit_memory(saver);
-  }
-
-  template <class Object>
-  void bring_back(Object& object) const {
-    MemoryRestorer restorer(memory_);
-    object.visit_memory(restorer);
-  }
-
- private:
-  Checkpoint memory_;
-};
-
 }  // namespace skein

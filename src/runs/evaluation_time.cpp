@@ -3,7 +3,6 @@
 #include <skein/core/stopwatch.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/direct_mobility.hpp>
-#include <skein/physics/make_mobility.hpp>
 
 #include "runs/run_description.hpp"
 
@@ -32,6 +31,9 @@ EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& posi
   const Vectors velocity("skein::time_evaluation", position.extent(0));
   EvaluationCost cost;
   cost.seconds = time_calls([&] { dynamics.compute_velocity(0.0, position, velocity); });
+  const Physics& physics = dynamics.physics();
+  if (physics.mobility->error_record().n_approximate > 0)
+    cost.direct_seconds = time_direct_sum(position, physics.viscosity);
   return cost;
 }
 
@@ -56,15 +58,12 @@ double time_direct_sum(const ConstVectors& position, const double viscosity) {
 }
 
 std::string describe_dry_run(const SceneConfig& scene) {
-  const auto fibers = make_fibers(scene.fibers);
-  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-                         make_mobility(scene), make_section_repulsion(scene.repulsion, fibers));
-  const auto integrator = make_integrator(scene, fibers, dynamics);
-  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers, scene.seed));
-  EvaluationCost cost = time_evaluation(dynamics, position);
-  if (dynamics.mobility().error_record().n_approximate > 0)
-    cost.direct_seconds = time_direct_sum(position, scene.fluid.viscosity);
-  return describe_run(scene, fibers, dynamics, *integrator, cost);
+  Physics physics = make_physics(scene);
+  FiberDynamics dynamics(physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
+  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
+  const EvaluationCost cost = time_evaluation(dynamics, position);
+  return describe_run(scene, physics, *integrator, cost);
 }
 
 }  // namespace skein

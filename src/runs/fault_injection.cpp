@@ -1,8 +1,11 @@
 #include "runs/fault_injection.hpp"
 
+#include <skein/core/milestone.hpp>
+
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
-#include <utility>
+#include <string_view>
 
 namespace skein {
 namespace {
@@ -14,42 +17,104 @@ void spoil(const Vectors& vectors, const std::int64_t step) {
 }
 
 Vectors copy(const ConstVectors& vectors) {
-  const Vectors result("skein::copy", vectors.extent(0));
+  const Vectors result("skein::fault_injection::copy", vectors.extent(0));
   Kokkos::deep_copy(ExecSpace(), result, vectors);
   ExecSpace().fence();
   return result;
 }
 
-}  // namespace
+/// An order and the run that it is given to.
+struct Fault {
+  FaultOrder order;
+  const State& state;
+  bool is_due(const FaultOrder::Target target) const { return order.target == target && order.step == state.step + 1; }
+};
 
-FaultOrder read_fault_order() {
-  const char* text = std::getenv("SKEIN_TEST_NAN");
-  if (text == nullptr) return {};
+/// Spoils positions or velocities.
+class FaultyDynamics final : public RightHandSide {
+ public:
+  FaultyDynamics(RightHandSide& dynamics, Fault fault) : dynamics_(dynamics), fault_(fault) {}
+
+  void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
+    if (fault_.is_due(FaultOrder::Target::position)) {
+      const Vectors spoiled = copy(position);
+      spoil(spoiled, fault_.order.step);
+      dynamics_.compute_velocity(time, spoiled, velocity);
+      return;
+    }
+    dynamics_.compute_velocity(time, position, velocity);
+    ExecSpace().fence();
+    if (fault_.is_due(FaultOrder::Target::velocity)) spoil(velocity, fault_.order.step);
+  }
+  std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
+  std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
+  Linearization* linearization() override { return dynamics_.linearization(); }
+
+ private:
+  RightHandSide& dynamics_;
+  Fault fault_;
+};
+
+/// Spoils forces.
+class FaultyMobility final : public Mobility {
+ public:
+  FaultyMobility(std::unique_ptr<Mobility> mobility, Fault fault) : mobility_(std::move(mobility)), fault_(fault) {}
+
+  void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override {
+    if (!fault_.is_due(FaultOrder::Target::force)) return mobility_->add_velocity(sources, target, velocity);
+    const Vectors spoiled = copy(sources.force);
+    spoil(spoiled, fault_.order.step);
+    mobility_->add_velocity({sources.position, spoiled, sources.blob}, target, velocity);
+  }
+  double pairs() const override { return mobility_->pairs(); }
+  std::string describe() const override { return mobility_->describe(); }
+  void visit_memory(MemoryVisitor& visitor) override { mobility_->visit_memory(visitor); }
+  ErrorRecord error_record() const override { return mobility_->error_record(); }
+  std::vector<std::string> take_messages() override { return mobility_->take_messages(); }
+
+ private:
+  std::unique_ptr<Mobility> mobility_;
+  Fault fault_;
+};
+
+/// "name:number" of an environment variable; the number is 0 where there is none.
+std::pair<std::string, long> read_numbered(const char* variable) {
+  const char* text = std::getenv(variable);
+  if (text == nullptr) return {"", 0};
   const std::string order = text;
-  const auto colon = order.find(':');
-  if (colon == std::string::npos) return {};
+  const auto colon = order.rfind(':');
+  if (colon == std::string::npos) return {order, 1};
   return {order.substr(0, colon), std::strtol(order.c_str() + colon + 1, nullptr, 10)};
 }
 
-void FaultyDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
-  const bool now = order_.step == step_.number;
-  if (now && order_.target == "position") {
-    const Vectors spoiled = copy(position);
-    spoil(spoiled, order_.step);
-    dynamics_.compute_velocity(time, spoiled, velocity);
-    return;
-  }
-  dynamics_.compute_velocity(time, position, velocity);
-  ExecSpace().fence();
-  if (now && order_.target == "velocity") spoil(velocity, order_.step);
+}  // namespace
+
+RunHooks make_fault_hooks(const FaultOrder& order) {
+  return {.prepare =
+              [order](Physics& physics, const State& state) {
+                if (order.target == FaultOrder::Target::force)
+                  physics.mobility = std::make_unique<FaultyMobility>(std::move(physics.mobility), Fault{order, state});
+              },
+          .decorate = [order](RightHandSide& dynamics, const State& state) -> std::unique_ptr<RightHandSide> {
+            return std::make_unique<FaultyDynamics>(dynamics, Fault{order, state});
+          }};
 }
 
-void FaultyMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
-  if (order_.step != step_.number || order_.target != "force")
-    return mobility_->add_velocity(sources, target, velocity);
-  const Vectors spoiled = copy(sources.force);
-  spoil(spoiled, order_.step);
-  mobility_->add_velocity({sources.position, spoiled, sources.blob}, target, velocity);
+RunHooks read_fault_hooks() {
+  const auto [target, step] = read_numbered("SKEIN_TEST_NAN");
+  if (target == "position") return make_fault_hooks({FaultOrder::Target::position, step});
+  if (target == "force") return make_fault_hooks({FaultOrder::Target::force, step});
+  if (target == "velocity") return make_fault_hooks({FaultOrder::Target::velocity, step});
+  return {};
+}
+
+void install_kill_order() {
+  const auto [milestone, number] = read_numbered("SKEIN_TEST_KILL");
+  if (number <= 0) return;
+  observe_milestones([milestone = milestone, n_left = number](const std::string_view name) mutable {
+    if (name == milestone && --n_left == 0) std::raise(SIGKILL);
+  });
 }
 
 }  // namespace skein

@@ -7,10 +7,9 @@
 
 namespace skein {
 
-Frame make_frame(const std::vector<Fiber>& fibers, const std::int64_t step, const double time,
-                 const ConstVectors& position) {
-  Frame frame{step, time, to_host(position), compute_centreline(fibers, position), {}};
-  for (const Fiber& fiber : fibers) {
+Frame make_frame(const Physics& physics, const std::int64_t step, const double time, const ConstVectors& position) {
+  Frame frame{step, time, to_host(position), physics.sections.compute_centreline(position), {}};
+  for (const Fiber& fiber : physics.fibers) {
     const auto curvature = compute_curvature(centreline_of(fiber, frame.centreline));
     frame.curvature.insert(frame.curvature.end(), curvature.begin(), curvature.end());
   }
@@ -25,18 +24,17 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
   return regimes;
 }
 
-StepRecord make_step_record(const std::vector<Fiber>& fibers, const FiberDynamics& dynamics, const State& state,
-                            const StepReport& report) {
+StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report) {
   StepRecord record;
   record.step = state.step;
   record.time = state.time;
   record.dt = report.dt;
   record.error = report.error;
   record.spectral_radius = report.spectral_radius;
-  record.energy = dynamics.compute_energies(state.position);
-  const auto centreline = compute_centreline(fibers, state.position);
-  record.smallest_gap = compute_smallest_gap(fibers, centreline);
-  for (const Fiber& fiber : fibers) {
+  record.energy = physics.compute_energies(state.time, state.position);
+  record.smallest_gap = physics.sections.compute_smallest_gap(state.position);
+  const auto centreline = physics.sections.compute_centreline(state.position);
+  for (const Fiber& fiber : physics.fibers) {
     const auto line = centreline_of(fiber, centreline);
     const auto curvature = compute_curvature(line);
     record.length.push_back(compute_length(line));

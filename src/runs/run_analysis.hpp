@@ -13,7 +13,7 @@ namespace skein {
 
 /// What the forces of one fiber do at one moment.
 struct ForceRecord {
-  double energy = 0.0;  ///< elastic and of the repulsion, force * length
+  double energy = 0.0;  ///< of all forces that have one, force * length
   PowerBalance power;
   Matrix3 stresslet{};                  ///< force * length
   double viscosity_contribution = 0.0;  ///< length^3; see compute_viscosity_contribution
@@ -24,6 +24,7 @@ struct RunAnalysis {
   SceneConfig scene;
   std::string status;
   std::vector<Fiber> fibers;
+  bool shares_energy = false;                    ///< forces between fibers pass it from one to the other
   std::vector<double> time;                      ///< [n_frames]
   std::vector<double> smallest_gap;              ///< [n_frames], length
   std::vector<FiberHistory> histories;           ///< [n_fibers]
@@ -36,8 +37,8 @@ struct RunAnalysis {
 RunAnalysis analyze_run(const RunFolder& folder, bool with_forces);
 
 /// Largest |E(t) - E(0) - integral of the elastic power|, by the trapezoidal rule over frames, over what the fluid
-/// dissipated: how well the powers of springs, flow and fluid add up. Of all fibers together where the scene has a
-/// repulsion, which passes energy from one to the other. NaN without forces or without motion.
+/// dissipated: how well the powers of springs, flow and fluid add up. Of all fibers together where forces between
+/// them pass energy from one to the other. NaN without forces or without motion.
 double measure_energy_defect(const RunAnalysis& analysis, int fiber);
 
 /// diagnostics.csv, a row for each frame and fiber, and diagnostics.h5, the same by fibers with curvature along the

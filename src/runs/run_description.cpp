@@ -5,7 +5,6 @@
 #include <skein/core/version.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/spring_network.hpp>
-#include <skein/physics/background_flow.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/solvers/rkc2.hpp>
 
@@ -21,10 +20,10 @@ namespace {
 
 /// Evaluations a run will take. For RKC2 an upper estimate: error control that never finds the fiber at rest, with the
 /// local error of a rigid turn, (rate dt)^2 rate / 30 of the length per unit time.
-double expect_evaluations(const SceneConfig& scene, const double spectral_radius) {
+double expect_evaluations(const SceneConfig& scene, const double time_scale, const double spectral_radius) {
   const double end = scene.time.end;
   if (scene.time.method == "euler") return end / scene.time.step;
-  const double rate = std::max(1.0 / make_background_flow(scene.flows)->time_scale(), 1e-3);
+  const double rate = std::max(1.0 / time_scale, 1e-3);
   const double dt = scene.time.step > 0.0
                         ? scene.time.step
                         : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
@@ -52,18 +51,21 @@ double guess_spectral_radius(const SceneConfig& scene) {
 
 }  // namespace
 
-TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text,
-                                 const std::vector<Fiber>& fibers) {
+TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text, const Physics& physics) {
+  const std::vector<Fiber>& fibers = physics.fibers;
   TrajectoryLayout layout;
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  const auto flow = make_background_flow(scene.flows);
-  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
-                       {"version", version()},      {"commit", commit()},
-                       {"build", describe_build()}, {"backend", describe_backend()},
-                       {"flow", flow->describe()},  {"integrator", scene.time.method}};
-  const double rate = flow->typical_rate();
+  layout.attributes = {{"title", scene.title},
+                       {"scene", scene_text},
+                       {"version", version()},
+                       {"commit", commit()},
+                       {"build", describe_build()},
+                       {"backend", describe_backend()},
+                       {"flow", physics.flow->describe()},
+                       {"integrator", scene.time.method}};
+  const double rate = physics.flow->typical_rate();
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
@@ -82,16 +84,18 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   return layout;
 }
 
-std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
-                         const Integrator& integrator, const EvaluationCost& cost) {
-  const double n_nodes = count_nodes(fibers);
+std::string describe_run(const SceneConfig& scene, const Physics& physics, const Integrator& integrator,
+                         const EvaluationCost& cost) {
+  const double n_nodes = count_nodes(physics.fibers);
   const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
   const double bytes = n_frames * n_nodes * (scene.output.precision == "single" ? 12.0 : 24.0);
   const double radius = guess_spectral_radius(scene);
-  const double evaluations = expect_evaluations(scene, radius);
+  const double evaluations = expect_evaluations(scene, physics.time_scale(), radius);
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
-  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", dynamics.flow().describe(),
+  if (const std::string forces = physics.describe_forces(); !forces.empty())
+    text += fmt::format("forces: {}\n", forces);
+  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", physics.flow->describe(),
                       describe_choice(choose_mobility(scene), scene), integrator.describe(), scene.time.end);
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,

@@ -1,23 +1,21 @@
 #pragma once
 
-#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/io/trajectory.hpp>
+#include <skein/physics/physics.hpp>
 #include <skein/scene/scene_config.hpp>
 #include <skein/solvers/integrator.hpp>
 
 #include "runs/evaluation_time.hpp"
 
 #include <string>
-#include <vector>
 
 namespace skein {
 
 /// What a run folder says of itself in every trajectory.
-TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text,
-                                 const std::vector<Fiber>& fibers);
+TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text, const Physics& physics);
 
 /// A run's first lines: version, device, size, methods and why, what it will take.
-std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
-                         const Integrator& integrator, const EvaluationCost& cost);
+std::string describe_run(const SceneConfig& scene, const Physics& physics, const Integrator& integrator,
+                         const EvaluationCost& cost);
 
 }  // namespace skein

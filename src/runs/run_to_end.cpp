@@ -6,6 +6,7 @@
 #include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "runs/fault_injection.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulation.hpp"
 
@@ -26,14 +27,14 @@ RunFolder open_or_create(const std::filesystem::path& path, const std::string& s
 }  // namespace
 
 ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& path, const double max_walltime,
-                    const bool quiet) {
+                    RunListener& listener) {
   const RunFolder folder = open_or_create(path, write_scene(scene));
   const RunLock lock(folder);
   const ResumePoint point = find_resume_point(folder);
   if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) return ExitCode::done;
   RunControl control(max_walltime);
-  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
-                        ProgressReport::choose_kind(quiet), quiet);
+  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
+                        read_fault_hooks());
   simulation.introduce();
   return simulation.run();
 }

@@ -3,6 +3,8 @@
 #include <skein/core/error.hpp>
 #include <skein/scene/scene_config.hpp>
 
+#include "runs/run_listener.hpp"
+
 #include <filesystem>
 
 namespace skein {
@@ -12,6 +14,7 @@ namespace skein {
 /// @param max_walltime  seconds since the program began
 /// @returns done, or stopped on request
 /// @throws Error(cannot_create) if the folder holds a run of another scene, or anything but a run
-ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& folder, double max_walltime, bool quiet);
+ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& folder, double max_walltime,
+                    RunListener& listener);
 
 }  // namespace skein

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t max_described = 10;  // fibers
 
-std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const int index) {
+std::string describe_fiber(const SceneConfig& scene, const double rate, const Fiber& fiber, const int index) {
   const FiberConfig& config = fiber.config;
   const BeamStiffness beam = measure_beam_stiffness(fiber);
   std::string text = fmt::format(
@@ -35,7 +35,6 @@ std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const i
     text += fmt::format(
         "  the stiffness varies along the fiber, from {:g} to {:g} times spring_stiffness: means are given\n",
         softest->factor, stiffest->factor);
-  const double rate = make_background_flow(scene.flows)->typical_rate();
   if (rate > 0.0) {
     const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
     text += fmt::format(
@@ -48,10 +47,9 @@ std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const i
 
 // The flow presses with a straight piece of fiber; those that it can bend give way. At contact: 32/15 strength
 // sqrt(R/range) a length side by side, 4 pi/3 strength R where fibers cross.
-std::string describe_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+std::string describe_repulsion(const SceneConfig& scene, const double rate, const std::vector<Fiber>& fibers) {
   const double strength = scene.repulsion.strength, range = find_repulsion_range(scene.repulsion, fibers);
   if (strength == 0.0) return {};
-  const double rate = make_background_flow(scene.flows)->typical_rate();
   double radius = 0.0, length = 0.0;
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f) {
     radius = std::max(radius, fibers[f].config.radius);
@@ -61,8 +59,7 @@ std::string describe_repulsion(const SceneConfig& scene, const std::vector<Fiber
   }
   std::string text = fmt::format(
       "repulsion: of strength {:g} where gaps are below {:g}; fibers that touch push with about {:.3g} a length side "
-      "by "
-      "side, with {:.3g} where they cross",
+      "by side, with {:.3g} where they cross",
       strength, range, 32.0 / 15.0 * strength * std::sqrt(radius / range),
       4.0 * std::numbers::pi / 3.0 * strength * radius);
   if (rate > 0.0)
@@ -75,13 +72,14 @@ std::string describe_repulsion(const SceneConfig& scene, const std::vector<Fiber
 
 std::string describe_scene(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
+  const double rate = make_background_flow(scene.flows)->typical_rate();
   std::string text;
   if (!scene.title.empty()) text += scene.title + "\n";
   text += fmt::format("{} fiber{}, {} nodes\n", fibers.size(), fibers.size() == 1 ? "" : "s", count_nodes(fibers));
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f)
-    text += describe_fiber(scene, fibers[f], static_cast<int>(f));
+    text += describe_fiber(scene, rate, fibers[f], static_cast<int>(f));
   if (fibers.size() > max_described) text += fmt::format("... and {} more\n", fibers.size() - max_described);
-  return text + describe_repulsion(scene, fibers);
+  return text + describe_repulsion(scene, rate, fibers);
 }
 
 }  // namespace skein

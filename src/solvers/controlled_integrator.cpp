@@ -25,7 +25,7 @@ double largest_controlled_step(const ControlOptions& options) {
 
 ControlledIntegrator::ControlledIntegrator(RightHandSide& rhs, const ControlOptions& options, std::string name,
                                            const double order, const int n_nodes)
-    : rhs_(rhs), options_(options), name_(std::move(name)), n_nodes_(n_nodes), control_(order) {
+    : Integrator(rhs), options_(options), name_(std::move(name)), n_nodes_(n_nodes), control_(order) {
   start_ = make_vectors("start");
   start_velocity_ = make_vectors("start_velocity");
   end_ = make_vectors("end");
@@ -79,7 +79,6 @@ double ControlledIntegrator::first_step(const double time) {
 void ControlledIntegrator::swap_ends() {
   std::swap(start_, end_);
   std::swap(start_velocity_, end_velocity_);
-  in_step_ = !in_step_;
 }
 
 // Of the last step only its end: start_ serves frames inside that step, which are written before anything is saved.
@@ -89,21 +88,6 @@ void ControlledIntegrator::visit_memory(MemoryVisitor& visitor) {
   control_.visit_memory(visitor);
   visitor.vectors(name_ + ".end", end_);
   visitor.vectors(name_ + ".end_velocity", end_velocity_);
-}
-
-StepReport ControlledIntegrator::advance(State& state, const double end) {
-  kept_ = {control_, next_dt_, started_};
-  keep_memory();
-  try {
-    return take_step(state, end);
-  } catch (...) {
-    control_ = kept_.control;
-    next_dt_ = kept_.next_dt;
-    started_ = kept_.started;
-    bring_memory_back();
-    if (in_step_) swap_ends();
-    throw;
-  }
 }
 
 double ControlledIntegrator::choose_step() const {
@@ -174,7 +158,6 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
     dt = control_.after_rejected(dt, reason.empty() ? result.error : fault.empty() ? 4.0 : std::nan(""));
     prepare_again(state.time, start_, start_velocity_, fault);
   }
-  in_step_ = false;
   step_start_ = state.time;
   step_end_ = dt == left ? end : state.time + dt;
   state.time = step_end_;

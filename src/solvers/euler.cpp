@@ -13,7 +13,7 @@ constexpr double displacement_ratio = 1e-7;  // of the length: small against nod
 }  // namespace
 
 Euler::Euler(RightHandSide& rhs, const double dt, const double length_scale, const int n_nodes)
-    : rhs_(rhs),
+    : Integrator(rhs),
       dt_(dt),
       length_scale_(length_scale),
       start_("skein::Euler::start", static_cast<std::size_t>(n_nodes)),
@@ -22,7 +22,7 @@ Euler::Euler(RightHandSide& rhs, const double dt, const double length_scale, con
   SKEIN_REQUIRE(dt > 0.0, "Euler needs a step");
 }
 
-StepReport Euler::advance(State& state, const double end) {
+StepReport Euler::take_step(State& state, const double end) {
   // A last step shorter than a thousandth would be rounding: it is joined to the one before.
   const double left = end - state.time;
   const double dt = left < 1.001 * dt_ ? left : dt_;

@@ -56,8 +56,8 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
                       stiffness, stabilized_rate, implicit_dt, work, implicit_rate)};
 }
 
-SelectedIntegrator::SelectedIntegrator(std::unique_ptr<Integrator> integrator, std::string reason)
-    : integrator_(std::move(integrator)), reason_(std::move(reason)) {}
+SelectedIntegrator::SelectedIntegrator(RightHandSide& rhs, std::unique_ptr<Integrator> integrator, std::string reason)
+    : Integrator(rhs), integrator_(std::move(integrator)), reason_(std::move(reason)) {}
 
 std::string SelectedIntegrator::describe() const {
   return integrator_->describe() + "\n  chosen automatically: " + reason_;

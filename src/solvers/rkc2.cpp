@@ -24,7 +24,6 @@ constexpr int max_stages = 1000;  // rounding errors of a step grow with their s
 Rkc2::Rkc2(RightHandSide& rhs, const Rkc2Options& options, const int n_nodes)
     : ControlledIntegrator(rhs, options, "RKC2", 2.0, n_nodes),
       power_iteration_(n_nodes, options.displacement, options.seed),
-      kept_direction_(make_vectors("kept_direction")),
       stage_{make_vectors("stage"), make_vectors("stage"), make_vectors("stage")},
       stage_velocity_(make_vectors("stage_velocity")) {}
 
@@ -119,18 +118,6 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   combine<ExecSpace>(ExecSpace(), scratch_, {0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_},
                      {0.4 * dt, end_velocity_});
   return {measure_error(scratch_, dt), stages, "", estimate_excess};
-}
-
-void Rkc2::keep_memory() {
-  kept_radius_ = spectral_radius_;
-  kept_steps_ = steps_since_refresh_;
-  Kokkos::deep_copy(ExecSpace(), kept_direction_, power_iteration_.vector());
-}
-
-void Rkc2::bring_memory_back() {
-  spectral_radius_ = kept_radius_;
-  steps_since_refresh_ = kept_steps_;
-  Kokkos::deep_copy(ExecSpace(), power_iteration_.vector(), kept_direction_);
 }
 
 void Rkc2::visit_memory(MemoryVisitor& visitor) {

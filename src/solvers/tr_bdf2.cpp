@@ -39,7 +39,6 @@ TrBdf2::TrBdf2(RightHandSide& rhs, const ControlOptions& options, const int n_no
       linearization_(get_linearization(rhs)),
       gmres_(n_nodes, max_iterations),
       factorized_position_(make_vectors("factorized_position")),
-      kept_position_(make_vectors("kept_position")),
       acceleration_(make_vectors("acceleration")),
       next_acceleration_(make_vectors("next_acceleration")),
       middle_velocity_(make_vectors("middle_velocity")),
@@ -49,15 +48,6 @@ TrBdf2::TrBdf2(RightHandSide& rhs, const ControlOptions& options, const int n_no
 void TrBdf2::prepare(double, const ConstVectors&, const ConstVectors&) {
   if (is_next_ready_) std::swap(acceleration_, next_acceleration_);
   is_next_ready_ = false;
-  kept_ = preconditioner_;
-  Kokkos::deep_copy(ExecSpace(), kept_position_, factorized_position_);
-}
-
-void TrBdf2::bring_memory_back() {
-  is_next_ready_ = false;
-  preconditioner_ = kept_;
-  Kokkos::deep_copy(ExecSpace(), factorized_position_, kept_position_);
-  number_made_ = -1;
 }
 
 double TrBdf2::largest_step() const {
@@ -65,6 +55,7 @@ double TrBdf2::largest_step() const {
 }
 
 void TrBdf2::factorize(const double scale) {
+  number_made_ = -1;  // a factorization that fails leaves none
   if (!linearization_.factorize(factorized_position_, scale))
     throw Error(ExitCode::numerical, "the preconditioner of the implicit step is singular");
   number_made_ = preconditioner_.number;
@@ -99,7 +90,7 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
   double last_size = 0.0;
   for (int step = 0; step < max_newton_steps; ++step) {
     ++newton_steps_;
-    linearization_.set_position(end_);
+    linearization_.set_position(time, end_);
     rhs_.compute_velocity(time, end_, stage_velocity);
     combine<ExecSpace>(space, scratch_, {1.0, constant}, {-1.0, end_});
     combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {scale, stage_velocity});

@@ -6,6 +6,7 @@
 #include <skein/solvers/rkc2.hpp>
 
 #include "tests/accuracy/dense_operators.hpp"
+#include "tests/support/direct_physics.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -286,10 +287,13 @@ TEST(Buckling, ASimulatedFiberBucklesAtTheGrowthRateOfACompressedOne) {
   FiberConfig config;
   config.start_amplitude = 2e-4;
   config.start_plane = 0.0;
-  const auto fibers = make_fibers({config});
-  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers),
-                         make_background_flow({{.kind = "planar_extension", .rate = 1.25}}),
-                         std::make_unique<DirectMobility>(viscosity, Precision::in_double));
+  SceneConfig scene;
+  scene.fluid.viscosity = viscosity;
+  scene.flows = {{.kind = "planar_extension", .rate = 1.25}};
+  scene.fibers = {config};
+  Physics physics = test::make_direct_physics(scene);
+  const auto& fibers = physics.fibers;
+  FiberDynamics dynamics(physics);
   State state{0.0, 0, to_device("position", make_surface_nodes(fibers))};
   Rkc2Options options;
   options.tolerance = 1e-4;
@@ -300,7 +304,7 @@ TEST(Buckling, ASimulatedFiberBucklesAtTheGrowthRateOfACompressedOne) {
   Rkc2 integrator(dynamics, options, fibers[0].n_nodes());
 
   const auto deflection = [&] {
-    const auto line = compute_centreline(fibers, state.position);
+    const auto line = physics.sections.compute_centreline(state.position);
     return line[40].y + line[39].y - line.front().y - line.back().y;  // not of the drift
   };
   const auto go_to = [&](const double time) {

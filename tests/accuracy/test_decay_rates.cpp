@@ -130,7 +130,7 @@ TEST_F(DecayRates, SimulatedFibersDecayAtTheseRates) {
     for (std::size_t i = 0; i < shape.size(); ++i) shape[i] = shape[i] + amplitude * displacement[i];
     const Vectors position = to_device("position", shape);
     const Vectors force("force", shape.size()), velocity("velocity", shape.size());
-    springs.compute_forces(position, force);
+    springs.add_forces(0.0, position, force);
     mobility.add_velocity({position, force, blob}, position, velocity);
     return to_host(velocity);
   };

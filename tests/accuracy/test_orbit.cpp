@@ -48,14 +48,14 @@ std::vector<Vec3> run_to(PaperFiber& fiber, Integrator& integrator, const double
 
 std::vector<Vec3> euler_at_6(const double dt) {
   PaperFiber fiber(sections);
-  Euler euler(*fiber.dynamics, dt, fiber.length(), fiber.n_nodes());
+  Euler euler(fiber.dynamics, dt, fiber.length(), fiber.n_nodes());
   return run_to(fiber, euler, 6.0);
 }
 
 TEST(Orbit, HalfTurnHasTheReferenceTimesAndCostsAnEighthOfEuler) {
   PaperFiber fiber(sections);
   fiber.scene.time.tolerance = 1e-4;
-  const auto integrator = make_integrator(fiber.scene, fiber.fibers, *fiber.dynamics);
+  const auto integrator = make_integrator(fiber.scene, fiber.physics, fiber.dynamics);
   const Vectors interpolated("interpolated", fiber.state.position.extent(0));
   std::vector<Sample> orbit = {{0.0, 0.0}};
   while (orbit.back().angle < 180.0 && fiber.state.time < 12.0) {
@@ -63,23 +63,23 @@ TEST(Orbit, HalfTurnHasTheReferenceTimesAndCostsAnEighthOfEuler) {
     // Sampled by the integrator's own interpolation: chords between steps would be off by more than the tolerance.
     for (double t = orbit.back().time + 0.01; t <= fiber.state.time; t += 0.01) {
       integrator->interpolate(t, interpolated);
-      orbit.push_back({t, clockwise_angle(compute_end_to_end(compute_centreline(fiber.fibers, interpolated)))});
+      orbit.push_back({t, clockwise_angle(fiber.end_to_end(interpolated))});
     }
   }
   EXPECT_NEAR(angle_at(orbit, 4.95), 40.0, 1.5);
   EXPECT_NEAR(time_of_angle(orbit, 90.0), 5.44, 0.05);
   EXPECT_NEAR(time_of_angle(orbit, 180.0), 10.9, 0.1);
-  EXPECT_LE(fiber.dynamics->evaluations(), 110000 / 8);
-  RecordProperty("evaluations", static_cast<int>(fiber.dynamics->evaluations()));
+  EXPECT_LE(fiber.dynamics.evaluations(), 110000 / 8);
+  RecordProperty("evaluations", static_cast<int>(fiber.dynamics.evaluations()));
   std::printf("angle at 4.95: %.2f; vertical at %.3f; half turn %.3f; %lld evaluations\n", angle_at(orbit, 4.95),
               time_of_angle(orbit, 90.0), time_of_angle(orbit, 180.0),
-              static_cast<long long>(fiber.dynamics->evaluations()));
+              static_cast<long long>(fiber.dynamics.evaluations()));
 }
 
 TEST(OrbitSlow, EulerConvergesToRkc2WithFirstOrder) {
   PaperFiber fiber(sections);
   fiber.scene.time.tolerance = 1e-5;
-  const auto integrator = make_integrator(fiber.scene, fiber.fibers, *fiber.dynamics);
+  const auto integrator = make_integrator(fiber.scene, fiber.physics, fiber.dynamics);
   const auto rkc2 = run_to(fiber, *integrator, 6.0);
   const double coarse = largest_distance(euler_at_6(1.6e-4), rkc2) / fiber.length();
   const double fine = largest_distance(euler_at_6(1.0e-4), rkc2) / fiber.length();

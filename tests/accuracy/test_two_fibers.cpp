@@ -7,6 +7,7 @@
 
 #include "tests/reference/force_balance.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
+#include "tests/support/direct_physics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,12 +42,21 @@ const FlowConfig compression{.kind = "planar_extension", .rate = 1.7};
 struct SimulatedFibers {
   explicit SimulatedFibers(const std::vector<FiberConfig>& configs, const double step = 0.0,
                            const FlowConfig& flow = {}, const RepulsionConfig& repulsion = {})
-      : fibers(make_fibers(configs)),
-        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow({flow}),
-                 std::make_unique<DirectMobility>(viscosity, Precision::in_double),
-                 make_section_repulsion(repulsion, fibers)),
+      : physics(test::make_direct_physics(make_scene(configs, flow, repulsion))),
+        fibers(physics.fibers),
+        dynamics(physics),
         state{0.0, 0, to_device("position", make_surface_nodes(fibers))},
         integrator(dynamics, make_options(step), count_nodes(fibers)) {}
+
+  static SceneConfig make_scene(const std::vector<FiberConfig>& configs, const FlowConfig& flow,
+                                const RepulsionConfig& repulsion) {
+    SceneConfig scene;
+    scene.fluid.viscosity = viscosity;
+    scene.fibers = configs;
+    scene.flows = {flow};
+    scene.repulsion = repulsion;
+    return scene;
+  }
 
   Rkc2Options make_options(const double step) const {
     Rkc2Options options;
@@ -64,18 +74,17 @@ struct SimulatedFibers {
 
   std::vector<Vec3> forces() const {
     const Vectors force("force", state.position.extent(0));
-    dynamics.springs().compute_forces(state.position, force);
-    if (dynamics.repulsion() != nullptr) dynamics.repulsion()->add_forces(state.position, force);
+    physics.compute_forces(state.time, state.position, force);
     return to_host(force);
   }
 
   double energy() const {
     double sum = 0.0;
-    for (const double energy_of_fiber : dynamics.compute_energies(state.position)) sum += energy_of_fiber;
+    for (const double energy_of_fiber : physics.compute_energies(state.time, state.position)) sum += energy_of_fiber;
     return sum;
   }
 
-  double gap() const { return compute_smallest_gap(fibers, compute_centreline(fibers, state.position)); }
+  double gap() const { return physics.sections.compute_smallest_gap(state.position); }
 
   /// Of springs and repulsion: force times velocity, the rate at which their energy falls.
   double power() {
@@ -84,7 +93,8 @@ struct SimulatedFibers {
     return reference::inner_product(forces(), to_host(velocity));
   }
 
-  std::vector<Fiber> fibers;
+  Physics physics;
+  const std::vector<Fiber>& fibers;
   FiberDynamics dynamics;
   State state;
   Rkc2 integrator;
@@ -170,7 +180,7 @@ TEST(TwoFibers, InAFluidAtRestTheEnergyFallsByWhatTheFluidDissipates) {
     const auto u = to_host(velocity);
     for (std::size_t i = 0; i < position.size(); ++i) position[i] = position[i] + time * u[i];
     double sum = 0.0;
-    for (const double e : run.dynamics.springs().compute_energies(to_device("position", position))) sum += e;
+    for (const double e : run.physics.compute_energies(0.0, to_device("position", position))) sum += e;
     return sum;
   };
   EXPECT_NEAR((energy_after(-moment) - energy_after(moment)) / (2.0 * moment), dissipation, 1e-5 * dissipation);

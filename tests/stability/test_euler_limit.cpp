@@ -18,9 +18,9 @@ TEST(SpectralRadius, IsElevenThousandAtEveryLength) {
   for (const int sections : {40, 80, 113}) {
     PaperFiber fiber(sections);
     const Vectors velocity("velocity", fiber.state.position.extent(0));
-    fiber.dynamics->compute_velocity(0.0, fiber.state.position, velocity);
+    fiber.dynamics.compute_velocity(0.0, fiber.state.position, velocity);
     SpectralRadius power_iteration(fiber.n_nodes(), 1e-8, 1);
-    const double radius = power_iteration.estimate(*fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
+    const double radius = power_iteration.estimate(fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
     EXPECT_NEAR(radius, 1.1e4, 0.03 * 1.1e4) << sections << " sections";
   }
 }
@@ -30,25 +30,24 @@ TEST(SpectralRadius, GivesEulersLimit) {
   for (const auto& [blob_ratio, limit] : {std::pair{1.0, 1.81e-4}, std::pair{0.5, 1.53e-4}}) {
     PaperFiber fiber(80, blob_ratio);
     const Vectors velocity("velocity", fiber.state.position.extent(0));
-    fiber.dynamics->compute_velocity(0.0, fiber.state.position, velocity);
+    fiber.dynamics.compute_velocity(0.0, fiber.state.position, velocity);
     SpectralRadius power_iteration(fiber.n_nodes(), 1e-8, 1);
-    const double radius = power_iteration.estimate(*fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
+    const double radius = power_iteration.estimate(fiber.dynamics, 0.0, fiber.state.position, velocity, 1e-4, 300);
     EXPECT_NEAR(2.0 / radius, limit, 0.03 * limit) << "blob times " << blob_ratio;
   }
 }
 
 TEST(Euler, IsStableBelowItsLimit) {
   PaperFiber fiber(80);
-  Euler euler(*fiber.dynamics, 1.75e-4, fiber.length(), fiber.n_nodes());
+  Euler euler(fiber.dynamics, 1.75e-4, fiber.length(), fiber.n_nodes());
   for (int step = 0; step < 3000; ++step) ASSERT_NO_THROW(euler.advance(fiber.state, 100.0)) << "step " << step;
   // The fiber is about as long as it was (shear compresses it a little): an unstable mode would have grown by 1e100.
-  EXPECT_NEAR(norm(compute_end_to_end(compute_centreline(fiber.fibers, fiber.state.position))),
-              79.0 / 80.0 * fiber.length(), 5e-3 * fiber.length());
+  EXPECT_NEAR(norm(fiber.end_to_end(fiber.state.position)), 79.0 / 80.0 * fiber.length(), 5e-3 * fiber.length());
 }
 
 TEST(Euler, IsCaughtBlowingUpAboveItsLimit) {
   PaperFiber fiber(80);
-  Euler euler(*fiber.dynamics, 1.9e-4, fiber.length(), fiber.n_nodes());
+  Euler euler(fiber.dynamics, 1.9e-4, fiber.length(), fiber.n_nodes());
   std::vector<Vec3> last_good;
   try {
     for (int step = 0; step < 3000; ++step) {
@@ -65,7 +64,7 @@ TEST(Euler, IsCaughtBlowingUpAboveItsLimit) {
   }
   // What is left is the last good state, not the broken one.
   EXPECT_EQ(to_host(fiber.state.position), last_good);
-  EXPECT_TRUE(fiber.dynamics->find_fault(fiber.state.position).empty());
+  EXPECT_TRUE(fiber.dynamics.find_fault(fiber.state.position).empty());
 }
 
 }  // namespace

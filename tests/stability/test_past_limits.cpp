@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 
+#include "tests/support/direct_physics.hpp"
 #include "tests/support/paper_fiber.hpp"
 
 #include <gtest/gtest.h>
@@ -31,18 +32,16 @@ struct RandomRun {
     scene.time.tolerance = std::pow(10.0, draw(-6.0, -0.5));
     // Some with a fixed step of any size; Euler always.
     if (scene.time.method == "euler" || draw(0.0, 1.0) < 0.5) scene.time.step = std::pow(10.0, draw(-4.0, 1.0));
-    fibers = make_fibers(scene.fibers);
-    dynamics = std::make_unique<FiberDynamics>(fibers, std::make_unique<SpringForces>(fibers),
-                                               make_background_flow(scene.flows),
-                                               std::make_unique<DirectMobility>(1.0, Precision::in_double));
-    std::vector<Vec3> nodes = make_surface_nodes(fibers);
+    physics = std::make_unique<Physics>(test::make_direct_physics(scene));
+    dynamics = std::make_unique<FiberDynamics>(*physics);
+    std::vector<Vec3> nodes = make_surface_nodes(physics->fibers);
     const double size = draw(0.0, 0.33) * fiber.radius;
     for (Vec3& x : nodes) x = x + Vec3{draw(-size, size), draw(-size, size), draw(-size, size)};
     state.position = to_device("position", nodes);
   }
 
   SceneConfig scene;
-  std::vector<Fiber> fibers;
+  std::unique_ptr<Physics> physics;
   std::unique_ptr<FiberDynamics> dynamics;
   State state;
 };
@@ -54,7 +53,7 @@ TEST(PastLimits, EveryRunEndsFiniteOrSaysWhatFailed) {
       RandomRun run(method, 100 + seed);
       std::vector<Vec3> last;
       try {
-        const auto integrator = make_integrator(run.scene, run.fibers, *run.dynamics);
+        const auto integrator = make_integrator(run.scene, *run.physics, *run.dynamics);
         for (int step = 0; step < 25; ++step) {
           last = to_host(ConstVectors(run.state.position));
           integrator->advance(run.state, 1e9);

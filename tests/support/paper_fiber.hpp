@@ -2,14 +2,12 @@
 
 #include <skein/analysis/centreline.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
-#include <skein/physics/background_flow.hpp>
-#include <skein/physics/direct_mobility.hpp>
-#include <skein/physics/spring_forces.hpp>
 #include <skein/scene/scene_config.hpp>
 #include <skein/solvers/integrator.hpp>
 
+#include "tests/support/direct_physics.hpp"
+
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -17,25 +15,34 @@ namespace skein::test {
 
 /// One of the paper's fibers along x in its shear flow, ready to run.
 struct PaperFiber {
-  explicit PaperFiber(const int sections, const double blob_ratio = 1.0) {
+  explicit PaperFiber(const int sections, const double blob_ratio = 1.0)
+      : scene(make_scene(sections, blob_ratio)),
+        physics(make_direct_physics(scene)),
+        dynamics(physics),
+        state{0.0, 0, to_device("position", make_surface_nodes(physics.fibers))} {}
+  PaperFiber(const PaperFiber&) = delete;
+  PaperFiber& operator=(const PaperFiber&) = delete;
+
+  int n_nodes() const { return state.position.extent_int(0); }
+  double length() const { return physics.fibers.front().length(); }
+  Vec3 end_to_end(const ConstVectors& position) const {
+    return compute_end_to_end(physics.sections.compute_centreline(position));
+  }
+
+  SceneConfig scene;
+  Physics physics;
+  FiberDynamics dynamics;
+  State state;
+
+ private:
+  static SceneConfig make_scene(const int sections, const double blob_ratio) {
+    SceneConfig scene;
     FiberConfig fiber;
     fiber.sections = sections;
     fiber.blob *= blob_ratio;
     scene.fibers = {fiber};
-    fibers = make_fibers(scene.fibers);
-    dynamics = std::make_unique<FiberDynamics>(
-        fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-        std::make_unique<DirectMobility>(scene.fluid.viscosity, Precision::in_double));
-    state.position = to_device("position", make_surface_nodes(fibers));
+    return scene;
   }
-
-  int n_nodes() const { return state.position.extent_int(0); }
-  double length() const { return fibers.front().length(); }
-
-  SceneConfig scene;
-  std::vector<Fiber> fibers;
-  std::unique_ptr<FiberDynamics> dynamics;
-  State state;
 };
 
 /// Degrees clockwise from +x, between -90 and 270: continuous over the half turn of a fiber that starts along x.

@@ -128,10 +128,10 @@ TEST(DeviceFmm, AgreesThroughEveryKindOfList) {
     DeviceOctree<ExecSpace> tree;
     const Vectors nodes = to_device("nodes", from.position);
     tree.build(ExecSpace(), nodes, nodes, make_octree_rules(options, choose_fmm_plan(options, 1e-4, 0)));
-    EXPECT_GT(tree.far_pairs.n_entries, 0);
-    EXPECT_GT(tree.fine_sources.n_entries, 0);
-    EXPECT_GT(tree.coarse_sources.n_entries, 0);
-    EXPECT_GT(tree.coarse_direct.n_entries, 0);
+    EXPECT_GT(tree.v_list.n_entries, 0);
+    EXPECT_GT(tree.w_list.n_entries, 0);
+    EXPECT_GT(tree.x_list.n_entries, 0);
+    EXPECT_GT(tree.x_direct.n_entries, 0);
   }
 }
 

@@ -27,7 +27,9 @@ std::vector<Entry> read_list(const Kokkos::View<Entry*, ExecSpace>& device, cons
   return list;
 }
 
-bool operator==(const skein::Run& a, const skein::Run& b) { return a.first == b.first && a.count == b.count; }
+bool operator==(const skein::IndexRange& a, const skein::IndexRange& b) {
+  return a.first == b.first && a.count == b.count;
+}
 
 bool are_equal(const Box& a, const Box& b) {
   return a.level == b.level && a.parent == b.parent && a.n_children == b.n_children &&
@@ -38,7 +40,7 @@ bool are_equal(const FarPair& a, const FarPair& b) {
   return a.target == b.target && a.source == b.source && std::equal(a.transfer, a.transfer + 3, b.transfer);
 }
 bool are_equal(const int a, const int b) { return a == b; }
-bool are_equal(const skein::Run& a, const skein::Run& b) { return a == b; }
+bool are_equal(const skein::IndexRange& a, const skein::IndexRange& b) { return a == b; }
 
 /// The same entries, list by list; `sorted` where the order within a list may differ.
 template <class Entry>
@@ -95,15 +97,15 @@ void expect_same_tree(const Octree& host, const DeviceOctree<ExecSpace>& device)
   EXPECT_EQ(read_list(device.target_leaves, device.n_target_leaves), host.target_leaves());
   EXPECT_EQ(device.largest_leaf, host.largest_leaf());
   EXPECT_EQ(device.transfers_met(), host.transfers_met());
-  expect_same_lists("V", host.far_pairs(), device.far_pairs, false);
-  expect_same_lists("X", host.coarse_sources(), device.coarse_sources, false);
-  expect_same_lists("W", host.fine_sources(), device.fine_sources, true);
-  expect_same_lists("U", host.near_sources(), read_list(device.near_sources.entries, device.near_sources.n_entries),
-                    read_list(device.near_sources.first, device.n_target_leaves),
+  expect_same_lists("V", host.v_list(), device.v_list, false);
+  expect_same_lists("X", host.x_list(), device.x_list, false);
+  expect_same_lists("W", host.w_list(), device.w_list, true);
+  expect_same_lists("U", host.u_list(), read_list(device.u_list.entries, device.u_list.n_entries),
+                    read_list(device.u_list.first, device.n_target_leaves),
                     read_list(device.near_end, device.n_target_leaves), false);
   double n_near_pairs = 0.0;
   for (int leaf = 0; leaf < device.n_target_leaves; ++leaf)
-    for (const skein::Run* run = host.near_sources().begin(leaf); run != host.near_sources().end(leaf); ++run)
+    for (const skein::IndexRange* run = host.u_list().begin(leaf); run != host.u_list().end(leaf); ++run)
       n_near_pairs +=
           static_cast<double>(run->count) *
           host.boxes()[static_cast<std::size_t>(host.target_leaves()[static_cast<std::size_t>(leaf)])].targets.count;

@@ -16,12 +16,15 @@ TEST(PowerBalance, SumsWithTheirSigns) {
   EXPECT_DOUBLE_EQ(power.dissipation, 2.0 + 2.0 - 3.0 - 1.0 + 2.0);
   EXPECT_DOUBLE_EQ(power.background, -(6.0 + 0.5 + 4.0));
   EXPECT_DOUBLE_EQ(power.elastic(), power.background - power.dissipation);
+  PowerBalance driven = power;
+  driven.drive = 0.7;
+  EXPECT_DOUBLE_EQ(driven.elastic(), power.elastic() + 0.7);
 }
 
 // A pair of forces f apart by d: S = f d (e_x e_x - I/3) where they pull the fluid together.
 TEST(Stresslet, OfAPairOfForces) {
   const std::vector<Vec3> position{{5.3, 1.0, 2.0}, {4.9, 1.0, 2.0}}, force{{-0.7, 0.0, 0.0}, {0.7, 0.0, 0.0}};
-  const Matrix3 stresslet = compute_stresslet(position, force);
+  const Matrix3 stresslet = compute_stresslet(compute_symmetric_moment(position, force));
   EXPECT_NEAR(stresslet[0][0], 0.7 * 0.4 * 2.0 / 3.0, 1e-14);
   EXPECT_NEAR(stresslet[1][1], -0.7 * 0.4 / 3.0, 1e-14);
   EXPECT_NEAR(stresslet[0][1], 0.0, 1e-14);
@@ -46,7 +49,7 @@ TEST(Stresslet, OfASphereGivesEinsteinsViscosity) {
       position.push_back({0.1 + radius * n[0], radius * n[1], radius * n[2] - 0.4});
       force.push_back({f[0], f[1], f[2]});
     }
-  const Matrix3 stresslet = compute_stresslet(position, force);
+  const Matrix3 stresslet = compute_stresslet(compute_symmetric_moment(position, force));
   const double factor = 20.0 / 3.0 * std::numbers::pi * viscosity * std::pow(radius, 3);
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b) EXPECT_NEAR(stresslet[a][b], factor * strain[a][b], 1e-3 * factor) << a << b;

@@ -9,6 +9,7 @@
 
 #include "tests/reference/point_cloud.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
+#include "tests/support/direct_physics.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ struct Bent {
 
 std::vector<Vec3> forces_of(const SpringForces& springs, const std::vector<Vec3>& position) {
   const Vectors force("force", position.size());
-  springs.compute_forces(to_device("position", position), force);
+  springs.add_forces(0.0, to_device("position", position), force);
   return to_host(ConstVectors(force));
 }
 
@@ -49,8 +50,8 @@ TEST(SpringTangent, IsTheDerivativeOfTheForcesAndSymmetric) {
   const int n = static_cast<int>(bent.position.size());
   const auto v = reference::make_random_vectors(n, 1.0, random), w = reference::make_random_vectors(n, 1.0, random);
   const auto change_by = [&](const std::vector<Vec3>& u) {
-    const Vectors change = to_device("change", std::vector<Vec3>(n, Vec3{7.0, 1e9, -3.0}));
-    springs.compute_force_changes(to_device("x", bent.position), to_device("u", u), change);
+    const Vectors change("change", n);
+    springs.add_force_changes(0.0, to_device("x", bent.position), to_device("u", u), change);
     return to_host(ConstVectors(change));
   };
   const double h = 1e-7;
@@ -95,7 +96,7 @@ TEST(BlockBand, SolvesLikeADenseMatrix) {
 class DenseLinearization final : public Linearization {
  public:
   explicit DenseLinearization(Eigen::MatrixXd matrix) : matrix_(std::move(matrix)) {}
-  void set_position(const ConstVectors&) override {}
+  void set_position(double, const ConstVectors&) override {}
   void multiply(const ConstVectors& v, const Vectors& result) override {
     const std::vector<Vec3> list = to_host(v);
     Eigen::VectorXd x(3 * list.size());
@@ -148,10 +149,17 @@ TEST(Gmres, SolvesAndStopsHonestly) {
 
 struct LinearizedFibers {
   Bent bent;
+  Physics physics;
   FiberDynamics dynamics;
-  LinearizedFibers()
-      : dynamics(bent.fibers, std::make_unique<SpringForces>(bent.fibers), make_background_flow({FlowConfig{}}),
-                 std::make_unique<DirectMobility>(1.7, Precision::in_double)) {}
+  LinearizedFibers() : physics(test::make_direct_physics(make_scene())), dynamics(physics) {}
+
+ private:
+  static SceneConfig make_scene() {
+    SceneConfig scene;
+    scene.fluid.viscosity = 1.7;
+    scene.fibers = make_configs();
+    return scene;
+  }
 };
 
 TEST(FiberLinearization, MultipliesByMobilityAndTangent) {
@@ -161,7 +169,7 @@ TEST(FiberLinearization, MultipliesByMobilityAndTangent) {
   const auto v = reference::make_random_vectors(static_cast<int>(position.size()), 1.0, random);
   Linearization& a = *linearized.dynamics.linearization();
   const Vectors x = to_device("x", position), product("product", position.size());
-  a.set_position(x);
+  a.set_position(0.0, x);
   const auto before = linearized.dynamics.evaluations();
   a.multiply(to_device("v", v), product);
   EXPECT_EQ(linearized.dynamics.evaluations(), before + 1);
@@ -188,7 +196,7 @@ TEST(FiberLinearization, PreconditionsWellAndTurnsWithTheFibers) {
   const auto list = reference::make_random_vectors(n, 1.0, random);
   Linearization& a = *linearized.dynamics.linearization();
   const double scale = 0.02;  // 200 times the decay time of the fastest mode
-  a.set_position(to_device("x", position));
+  a.set_position(0.0, to_device("x", position));
   ASSERT_TRUE(a.factorize(to_device("x", position), scale));
   const Vectors x("x", n);
   const auto solved = Gmres(n, 60).solve(a, scale, to_device("b", list), x, 1e-6);
@@ -204,7 +212,7 @@ TEST(FiberLinearization, PreconditionsWellAndTurnsWithTheFibers) {
   const Vectors result("result", n);
   a.precondition(to_device("b", list), result);
   const auto expected = turn(to_host(ConstVectors(result)));
-  a.set_position(to_device("x", turn(position)));
+  a.set_position(0.0, to_device("x", turn(position)));
   a.precondition(to_device("b", turn(list)), result);
   EXPECT_LT(reference::norm_of(reference::shifted(to_host(ConstVectors(result)), -1.0, expected)),
             1e-10 * reference::norm_of(expected));

@@ -28,15 +28,15 @@ template <class Add>
 void visit_near_matches(const Octree& tree, const Add& add) {
   const NearMatches near = make_near_matches(tree);
   for (const Match& match : near.matches) {
-    const Run one = near.tiles[static_cast<std::size_t>(match.one)];
-    const Run other = near.tiles[static_cast<std::size_t>(match.other)];
+    const IndexRange one = near.tiles[static_cast<std::size_t>(match.one)];
+    const IndexRange other = near.tiles[static_cast<std::size_t>(match.other)];
     add(one, other);
     if (match.one != match.other) add(other, one);
   }
   for (int l = 0; l < static_cast<int>(tree.target_leaves().size()); ++l) {
-    const Run targets =
+    const IndexRange targets =
         tree.boxes()[static_cast<std::size_t>(tree.target_leaves()[static_cast<std::size_t>(l)])].targets;
-    for (const Run* run = tree.one_way_sources().begin(l); run != tree.one_way_sources().end(l); ++run)
+    for (const IndexRange* run = tree.one_way_sources().begin(l); run != tree.one_way_sources().end(l); ++run)
       add(targets, *run);
   }
 }
@@ -45,7 +45,7 @@ void visit_near_matches(const Octree& tree, const Add& add) {
 std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int n_sources, const bool with_matches) {
   std::vector<int> count(static_cast<std::size_t>(n_targets) * static_cast<std::size_t>(n_sources));
   const auto& boxes = tree.boxes();
-  const auto add = [&](const Run targets, const Run sources) {
+  const auto add = [&](const IndexRange targets, const IndexRange sources) {
     for (int t = 0; t < targets.count; ++t)
       for (int s = 0; s < sources.count; ++s)
         ++count[static_cast<std::size_t>(tree.target_order()(targets.first + t)) * static_cast<std::size_t>(n_sources) +
@@ -53,17 +53,17 @@ std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int 
   };
   for (std::size_t leaf = 0; leaf < tree.target_leaves().size(); ++leaf) {
     const int l = static_cast<int>(leaf);
-    const Run targets = boxes[static_cast<std::size_t>(tree.target_leaves()[leaf])].targets;
+    const IndexRange targets = boxes[static_cast<std::size_t>(tree.target_leaves()[leaf])].targets;
     if (!with_matches)
-      for (const Run* run = tree.near_sources().begin(l); run != tree.near_sources().end(l); ++run) add(targets, *run);
-    for (const int* w = tree.fine_sources().begin(l); w != tree.fine_sources().end(l); ++w)
+      for (const IndexRange* run = tree.u_list().begin(l); run != tree.u_list().end(l); ++run) add(targets, *run);
+    for (const int* w = tree.w_list().begin(l); w != tree.w_list().end(l); ++w)
       add(targets, boxes[static_cast<std::size_t>(*w)].sources);
   }
   if (with_matches) visit_near_matches(tree, add);
   for (int b = 0; b < static_cast<int>(boxes.size()); ++b) {
-    for (const FarPair* pair = tree.far_pairs().begin(b); pair != tree.far_pairs().end(b); ++pair)
+    for (const FarPair* pair = tree.v_list().begin(b); pair != tree.v_list().end(b); ++pair)
       add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(pair->source)].sources);
-    for (const int* x = tree.coarse_sources().begin(b); x != tree.coarse_sources().end(b); ++x)
+    for (const int* x = tree.x_list().begin(b); x != tree.x_list().end(b); ++x)
       add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(*x)].sources);
   }
   return count;
@@ -114,10 +114,10 @@ TEST(Octree, UsesEveryKindOfList) {
   const HostVectors array = make_host_vectors(nodes);
   Octree tree;
   tree.build(array, array, rules_for(4, 0.0, 0));
-  EXPECT_GT(tree.far_pairs().entries.size(), 0u);
-  EXPECT_GT(tree.fine_sources().entries.size(), 0u);
-  EXPECT_GT(tree.coarse_sources().entries.size(), 0u);
-  EXPECT_GT(tree.near_sources().entries.size(), 0u);
+  EXPECT_GT(tree.v_list().entries.size(), 0u);
+  EXPECT_GT(tree.w_list().entries.size(), 0u);
+  EXPECT_GT(tree.x_list().entries.size(), 0u);
+  EXPECT_GT(tree.u_list().entries.size(), 0u);
 }
 
 TEST(Octree, AMatchWaitsForTheTurnsBeforeIt) {
@@ -192,12 +192,12 @@ TEST(Octree, AStraightFiberLiesInOneRowOfCells) {
   const HostVectors array = make_host_vectors(nodes);
   Octree tree;
   tree.build(array, array, rules_for(60, 0.0073, 0));
-  const skein::Run leaves = tree.level(tree.n_levels() - 1);
+  const skein::IndexRange leaves = tree.level(tree.n_levels() - 1);
   const auto& boxes = tree.boxes();
   for (int b = leaves.first; b < leaves.first + leaves.count; ++b)
     for (int c = 1; c < 3; ++c)
       EXPECT_EQ(boxes[static_cast<std::size_t>(b)].cell[c], boxes[static_cast<std::size_t>(leaves.first)].cell[c]);
-  EXPECT_LE(tree.near_sources().entries.size(), tree.target_leaves().size());  // neighbours form one run
+  EXPECT_LE(tree.u_list().entries.size(), tree.target_leaves().size());  // neighbours form one run
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include <skein/core/duration.hpp>
 #include <skein/core/json_text.hpp>
 
-#include "runs/progress.hpp"
+#include "cli/progress.hpp"
 
 #include <gtest/gtest.h>
 

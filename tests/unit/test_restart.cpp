@@ -2,10 +2,10 @@
 
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
-#include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
 #include "runs/checkpoint_memory.hpp"
+#include "tests/support/direct_physics.hpp"
 #include "tests/unit/error_code.hpp"
 
 #include <gtest/gtest.h>
@@ -38,27 +38,21 @@ SceneConfig make_scene(const int n_fibers, const std::function<void(TimeConfig&)
 
 struct FiberRun {
   explicit FiberRun(const SceneConfig& scene, const FmmOptions* fmm = nullptr)
-      : fibers(make_fibers(scene.fibers)),
-        dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
-                 make_some_mobility(scene.fluid.viscosity, fmm), make_section_repulsion(scene.repulsion, fibers)),
-        state{0.0, 0, to_device("position", make_surface_nodes(fibers))},
-        integrator(make_integrator(scene, fibers, dynamics)),
+      : physics(make_some_physics(scene, fmm)),
+        dynamics(physics),
+        state{0.0, 0, to_device("position", make_surface_nodes(physics.fibers))},
+        integrator(make_integrator(scene, physics, dynamics)),
         end(scene.time.end) {}
 
-  static std::unique_ptr<Mobility> make_some_mobility(const double viscosity, const FmmOptions* fmm) {
-    if (fmm != nullptr) return std::make_unique<FmmMobility>(viscosity, *fmm);
-    return std::make_unique<DirectMobility>(viscosity, Precision::in_double);
+  static Physics make_some_physics(const SceneConfig& scene, const FmmOptions* fmm) {
+    Physics physics = test::make_direct_physics(scene);
+    if (fmm != nullptr) physics.mobility = std::make_unique<FmmMobility>(scene.fluid.viscosity, *fmm);
+    return physics;
   }
 
   bool step() {
     if (state.time >= end) return false;
-    const Remembered before(dynamics);
-    try {
-      integrator->advance(state, end);
-    } catch (...) {
-      before.bring_back(dynamics);
-      throw;
-    }
+    integrator->advance(state, end);
     return true;
   }
 
@@ -79,7 +73,7 @@ struct FiberRun {
     dynamics.visit_memory(restorer);
   }
 
-  std::vector<Fiber> fibers;
+  Physics physics;
   FiberDynamics dynamics;
   State state;
   std::unique_ptr<Integrator> integrator;
@@ -108,7 +102,7 @@ ErrorRecord expect_exact_restarts(const SceneConfig& scene, const int min_steps,
   while (resumed.step()) {
   }
   EXPECT_TRUE(resumed.save() == saved.back());
-  return unbroken.dynamics.mobility().error_record();
+  return unbroken.physics.mobility->error_record();
 }
 
 /// Leaves so small that the few nodes of these scenes have a far field; with its operators cut far too short, so that a
@@ -173,7 +167,8 @@ TEST(Restart, OfFibersThatRepelEachOtherIsExactAtEveryStep) {
     scene.repulsion = {1.9, 0.02};
     FiberRun run(scene);
     std::vector<double> energy(3);
-    run.dynamics.repulsion()->add_energies(run.state.position, energy);
+    ASSERT_EQ(run.physics.forces.size(), 2u);
+    run.physics.forces[1]->add_energies(0.0, run.state.position, energy);
     EXPECT_GT(energy[1], 0.0);
     expect_exact_restarts(scene, 20);
   }
@@ -195,6 +190,7 @@ class InterruptedDynamics final : public RightHandSide {
   }
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
   Linearization* linearization() override { return dynamics_.linearization(); }
   int n_left = -1;  ///< evaluations until it happens; none for a negative number
 
@@ -215,7 +211,7 @@ TEST(Restart, OfAStepThatWasGivenUpIsExact) {
   for (const auto& [scene, fmm] : cases) {
     FiberRun unbroken(scene, fmm), broken(scene, fmm);
     InterruptedDynamics dynamics(broken.dynamics);
-    broken.integrator = make_integrator(scene, broken.fibers, dynamics);
+    broken.integrator = make_integrator(scene, broken.physics, dynamics);
     int n_interruptions = 0;
     for (int step = 0; step < 60 && unbroken.step(); ++step) {
       const std::string before = broken.save();

@@ -1,3 +1,4 @@
+#include <skein/physics/physics.hpp>
 #include <skein/physics/section_repulsion.hpp>
 
 #include "tests/reference/force_balance.hpp"
@@ -104,13 +105,13 @@ Reference sum_all_pairs(const Tangle& tangle) {
 
 std::vector<Vec3> forces_of(const SectionRepulsion& repulsion, const std::vector<Vec3>& position) {
   const Vectors force("force", position.size());
-  repulsion.add_forces(to_device("position", position), force);
+  repulsion.add_forces(0.0, to_device("position", position), force);
   return to_host(ConstVectors(force));
 }
 
 double energy_of(const SectionRepulsion& repulsion, const std::vector<Vec3>& position, const std::size_t n_fibers) {
   std::vector<double> energy(n_fibers);
-  repulsion.add_energies(to_device("position", position), energy);
+  repulsion.add_energies(0.0, to_device("position", position), energy);
   double sum = 0.0;
   for (const double of_fiber : energy) sum += of_fiber;
   return sum;
@@ -129,7 +130,7 @@ TEST(SectionRepulsion, IsTheSumOverAllPairs) {
               1e-12 * reference::norm_of(expected.force))
         << seed;
     std::vector<double> energy(tangle.fibers.size(), 0.75);  // it is added
-    repulsion.add_energies(to_device("position", tangle.position), energy);
+    repulsion.add_energies(0.0, to_device("position", tangle.position), energy);
     for (std::size_t f = 0; f < energy.size(); ++f)
       EXPECT_NEAR(energy[f] - 0.75, expected.energy[f], 1e-12 * expected.energy[f] + 1e-15) << seed;
   }
@@ -142,7 +143,7 @@ TEST(SectionRepulsion, IsAddedToForces) {
   const SectionRepulsion repulsion(tangle.fibers, strength, range);
   const auto alone = forces_of(repulsion, tangle.position);
   const Vectors force = to_device("force", std::vector<Vec3>(alone.size(), Vec3{0.5, -2.0, 4.0}));
-  repulsion.add_forces(to_device("position", tangle.position), force);
+  repulsion.add_forces(0.0, to_device("position", tangle.position), force);
   const auto sum = to_host(ConstVectors(force));
   for (std::size_t i = 0; i < sum.size(); ++i) EXPECT_LT(norm(sum[i] - alone[i] - Vec3{0.5, -2.0, 4.0}), 1e-14);
 }
@@ -169,7 +170,7 @@ TEST(SectionRepulsion, HasChangesThatAreTheDerivativeOfTheForcesAndSymmetric) {
   const auto v = reference::make_random_vectors(n, 1.0, random), w = reference::make_random_vectors(n, 1.0, random);
   const auto change_by = [&](const std::vector<Vec3>& u) {
     const Vectors change("change", n);
-    repulsion.add_force_changes(to_device("x", tangle.position), to_device("u", u), change);
+    repulsion.add_force_changes(0.0, to_device("x", tangle.position), to_device("u", u), change);
     return to_host(ConstVectors(change));
   };
   const double h = 1e-8;
@@ -199,7 +200,9 @@ TEST(SectionRepulsion, PushesAndTurnsNothingAsAWhole) {
 
   // Their first moment, whatever the origin, is the sum of the fibers' shares.
   std::array<double, 6> sum{};
-  for (const auto& moment : repulsion.compute_moments(to_device("position", tangle.position)))
+  std::vector<SymmetricTensor> moments(tangle.fibers.size());
+  repulsion.add_moments(tangle.fibers, 0.0, to_device("position", tangle.position), moments);
+  for (const auto& moment : moments)
     for (int c = 0; c < 6; ++c) sum[c] += moment[c];
   std::array<double, 6> expected{};
   for (int i = 0; i < n; ++i) {
@@ -275,7 +278,7 @@ TEST(SectionRepulsion, IsFiniteWhereFibersCoincide) {
   EXPECT_TRUE(std::isfinite(energy_of(repulsion, pair.position, 2)));
   const Vectors change("change", pair.position.size());
   const Vectors x = to_device("x", pair.position);
-  repulsion.add_force_changes(x, x, change);
+  repulsion.add_force_changes(0.0, x, x, change);
   EXPECT_TRUE(std::isfinite(reference::norm_of(to_host(ConstVectors(change)))));
 }
 
@@ -283,10 +286,16 @@ TEST(SectionRepulsion, IsMadeAsASceneSays) {
   const Tangle tangle = make_tangle(3, 5);
   double thinnest = std::numeric_limits<double>::infinity();
   for (const Fiber& fiber : tangle.fibers) thinnest = std::min(thinnest, fiber.config.radius);
-  EXPECT_EQ(make_section_repulsion({0.0, 0.3}, tangle.fibers), nullptr);
-  EXPECT_EQ(make_section_repulsion({1.5, 0.0}, tangle.fibers)->range(), thinnest);
-  EXPECT_EQ(make_section_repulsion({1.5, 0.003}, tangle.fibers)->range(), 0.003);
-  EXPECT_EQ(make_section_repulsion({1.5, 0.003}, tangle.fibers)->strength(), 1.5);
+  SceneConfig scene;
+  const auto made = [&](const RepulsionConfig& config) {
+    scene.fibers.clear();
+    for (const Fiber& fiber : tangle.fibers) scene.fibers.push_back(fiber.config);
+    scene.repulsion = config;
+    return make_physics(scene).describe_forces();
+  };
+  EXPECT_EQ(made({0.0, 0.3}), "");
+  EXPECT_EQ(made({1.5, 0.0}), SectionRepulsion(tangle.fibers, 1.5, thinnest).describe());
+  EXPECT_EQ(made({1.5, 0.003}), SectionRepulsion(tangle.fibers, 1.5, 0.003).describe());
 }
 
 }  // namespace

@@ -91,10 +91,16 @@ std::vector<Vec3> deform(const std::vector<Fiber>& fibers, const double amount, 
 }
 
 std::vector<Vec3> forces_of(const SpringForces& springs, const std::vector<Vec3>& position) {
-  // Filled with rubbish: compute overwrites.
-  const Vectors force = to_device("force", std::vector<Vec3>(position.size(), Vec3{7.0, -3.0, 1e9}));
-  springs.compute_forces(to_device("position", position), force);
+  const Vectors force("force", position.size());
+  springs.add_forces(0.0, to_device("position", position), force);
   return to_host(force);
+}
+
+std::vector<double> energies_of(const SpringForces& springs, const std::vector<Vec3>& position,
+                                const std::size_t n_fibers) {
+  std::vector<double> energy(n_fibers);
+  springs.add_energies(0.0, to_device("position", position), energy);
+  return energy;
 }
 
 /// Shapes of one or two fibers, with sections on both sides of the number of lanes that a tile has.
@@ -156,7 +162,7 @@ TEST(SpringForce, EnergiesMatchTheReferenceFiberByFiber) {
   for (const Shape& shape : shapes()) {
     const auto fibers = make_fibers(shape.configs);
     const auto position = deform(fibers, shape.deformation, 12);
-    const auto energy = SpringForces(fibers).compute_energies(to_device("position", position));
+    const auto energy = energies_of(SpringForces(fibers), position, fibers.size());
 
     ASSERT_EQ(energy.size(), fibers.size());
     for (std::size_t i = 0; i < fibers.size(); ++i) {
@@ -186,7 +192,7 @@ TEST(SpringForce, IsMinusTheGradientOfTheEnergy) {
   const auto position = deform(fibers, 0.3, 14);
   const auto force = forces_of(springs, position);
   const auto energy = [&](const std::vector<Vec3>& at) {
-    const auto both = springs.compute_energies(to_device("position", at));
+    const auto both = energies_of(springs, at, 2);
     return both[0] + both[1];
   };
   constexpr double step = 1e-5;
@@ -270,9 +276,11 @@ TEST(SpringForce, NetworksMayReachFartherAndSkewed) {
 
 TEST(SpringForce, RefusesArraysOfAnotherLength) {
   const SpringForces springs(make_fibers({make_config(3, 7, 0.3, 0.7)}));
-  EXPECT_THROW(springs.compute_forces(Vectors("position", 20), Vectors("force", 20)), Error);
-  EXPECT_THROW(springs.compute_forces(Vectors("position", 21), Vectors("force", 20)), Error);
-  EXPECT_THROW(springs.compute_energies(Vectors("position", 20)), Error);
+  EXPECT_THROW(springs.add_forces(0.0, Vectors("position", 20), Vectors("force", 20)), Error);
+  EXPECT_THROW(springs.add_forces(0.0, Vectors("position", 21), Vectors("force", 20)), Error);
+  std::vector<double> energy(1), of_two(2);
+  EXPECT_THROW(springs.add_energies(0.0, Vectors("position", 20), energy), Error);
+  EXPECT_THROW(springs.add_energies(0.0, Vectors("position", 21), of_two), Error);
 }
 
 }  // namespace

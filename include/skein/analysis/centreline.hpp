@@ -1,6 +1,5 @@
 #pragma once
 
-#include <skein/arrays/types.hpp>
 #include <skein/fibers/fiber.hpp>
 
 #include <span>
@@ -8,10 +7,7 @@
 
 namespace skein {
 
-/// Centroids of all sections of all fibers, computed on the device. @returns [n_sections], length
-std::vector<Vec3> compute_centreline(const std::vector<Fiber>& fibers, const ConstVectors& position);
-
-/// The sections of one fiber in a list of all sections.
+/// The centroids of one fiber's sections in a list of all sections'.
 inline std::span<const Vec3> centreline_of(const Fiber& fiber, const std::vector<Vec3>& centreline) {
   return std::span(centreline).subspan(fiber.first_section, fiber.config.sections);
 }
@@ -26,9 +22,5 @@ double compute_length(std::span<const Vec3> centreline);
 
 /// From the first section to the last, length.
 Vec3 compute_end_to_end(std::span<const Vec3> centreline);
-
-/// The smallest distance between the surfaces of two fibers, or of distant sections of one (see distant_radii), taken
-/// as spheres about the sections' centroids; negative where they overlap. Infinite where there is no such pair. length
-double compute_smallest_gap(const std::vector<Fiber>& fibers, const std::vector<Vec3>& centreline);
 
 }  // namespace skein

@@ -1,27 +1,19 @@
 #pragma once
 
 #include <skein/dynamics/fiber_linearization.hpp>
-#include <skein/fibers/fiber.hpp>
-#include <skein/physics/background_flow.hpp>
-#include <skein/physics/mobility.hpp>
-#include <skein/physics/section_repulsion.hpp>
-#include <skein/physics/spring_forces.hpp>
+#include <skein/physics/physics.hpp>
 #include <skein/solvers/right_hand_side.hpp>
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace skein {
 
-/// Fibers in a viscous fluid: velocity = background flow + M(position) force(position), the force of springs and of the
-/// repulsion where there is one.
+/// Fibers in a viscous fluid: velocity = background flow + M(position) force(position).
 class FiberDynamics final : public RightHandSide {
  public:
-  /// @param repulsion  null: none
-  FiberDynamics(const std::vector<Fiber>& fibers, std::unique_ptr<SpringForces> springs,
-                std::unique_ptr<BackgroundFlow> flow, std::unique_ptr<Mobility> mobility,
-                std::unique_ptr<SectionRepulsion> repulsion = nullptr);
+  /// @param physics  must outlive the object
+  explicit FiberDynamics(Physics& physics);
 
   void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) override;
 
@@ -32,12 +24,8 @@ class FiberDynamics final : public RightHandSide {
 
   std::int64_t evaluations() const override { return evaluations_; }
 
-  /// All that later velocities depend on besides the arguments: the mobility's.
-  void visit_memory(MemoryVisitor& visitor) { mobility_->visit_memory(visitor); }
-  std::vector<std::string> take_messages() { return mobility_->take_messages(); }
-
-  /// Of springs and repulsion, force * length. @returns [n_fibers]
-  std::vector<double> compute_energies(const ConstVectors& position) const;
+  /// What the mobility remembers.
+  void visit_memory(MemoryVisitor& visitor) override { physics_.mobility->visit_memory(visitor); }
 
   /// M(position) dF/dx: neither the flow's gradient nor the change of M, which are no faster than the shear.
   Linearization* linearization() override;
@@ -50,21 +38,13 @@ class FiberDynamics final : public RightHandSide {
   };
   const Seconds& seconds() const { return seconds_; }
 
-  const SpringForces& springs() const { return *springs_; }
-  const SectionRepulsion* repulsion() const { return repulsion_.get(); }  ///< null: none
-  const BackgroundFlow& flow() const { return *flow_; }
-  const Mobility& mobility() const { return *mobility_; }
+  const Physics& physics() const { return physics_; }
 
  private:
-  double measure_viscosity();
-  void multiply(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result);
+  void multiply(double time, const ConstVectors& position, const ConstVectors& displacement, const Vectors& result);
+  std::string describe_fault(const ConstVectors& position, int node) const;
 
-  std::vector<Fiber> fibers_;
-  std::unique_ptr<SpringForces> springs_;
-  std::unique_ptr<BackgroundFlow> flow_;
-  std::unique_ptr<Mobility> mobility_;
-  std::unique_ptr<SectionRepulsion> repulsion_;
-  Scalars blob_;
+  Physics& physics_;
   Vectors force_;
   std::int64_t evaluations_ = 0;
   Seconds seconds_;

@@ -17,14 +17,14 @@ class BlockBand;
 /// while the fiber rotates and bends on.
 class FiberLinearization final : public Linearization {
  public:
-  /// Overwrites result with M(position) dF/dx(position) displacement.
-  using Product =
-      std::function<void(const ConstVectors& position, const ConstVectors& displacement, const Vectors& result)>;
+  /// Overwrites result with M(position) dF/dx(time, position) displacement.
+  using Product = std::function<void(double time, const ConstVectors& position, const ConstVectors& displacement,
+                                     const Vectors& result)>;
 
   FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product);
   ~FiberLinearization() override;
 
-  void set_position(const ConstVectors& position) override;
+  void set_position(double time, const ConstVectors& position) override;
   void multiply(const ConstVectors& v, const Vectors& result) override;
   bool factorize(const ConstVectors& position, double scale) override;
   double factorization_cost() const override;
@@ -45,6 +45,7 @@ class FiberLinearization final : public Linearization {
   std::vector<SpringNetwork> networks_;
   double viscosity_;
   Product product_;
+  double time_ = 0.0;
   Vectors position_;
   std::vector<Frame> frames_, frames_at_factorization_;  ///< [n_sections]
   std::vector<Frame> turns_;                             ///< rows of the rotations since the factorization

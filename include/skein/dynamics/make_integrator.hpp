@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/fibers/fiber.hpp>
+#include <skein/physics/physics.hpp>
 #include <skein/scene/scene_config.hpp>
 #include <skein/solvers/integrator.hpp>
 
@@ -9,8 +9,7 @@
 namespace skein {
 
 /// The integrator a scene asks for. Errors are measured against the longest fiber's length.
-/// @param rhs  must outlive the integrator
-std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const std::vector<Fiber>& fibers,
-                                            RightHandSide& rhs);
+/// @param rhs  of this physics, perhaps decorated; must outlive the integrator
+std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const Physics& physics, RightHandSide& rhs);
 
 }  // namespace skein

@@ -1,16 +1,13 @@
 #pragma once
 
-#include <skein/arrays/types.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/physics/force.hpp>
+#include <skein/physics/sections.hpp>
 
-#include <array>
 #include <memory>
 #include <vector>
 
 namespace skein {
-
-template <class Space>
-struct SectionBoxes;
 
 /// A soft repulsion of finite range between sections of different fibers and distant sections of one (see
 /// Fiber::distant_sections). With the gap g = distance of their centroids - radii, two sections that stand for h and h'
@@ -24,50 +21,37 @@ struct SectionBoxes;
 /// that cross at right angles with 4 pi/3 strength R.
 ///
 /// The time is in proportion to sections where those near each other are few; fibers find each other by their boxes.
-/// One call at a time: the object holds scratch.
-class SectionRepulsion {
+class SectionRepulsion final : public Force {
  public:
   /// @param strength  force / length, >= 0
   /// @param range     length, > 0
   SectionRepulsion(const std::vector<Fiber>& fibers, double strength, double range);
-  ~SectionRepulsion();
-  SectionRepulsion(SectionRepulsion&&) noexcept;
-  SectionRepulsion& operator=(SectionRepulsion&&) noexcept;
 
   double strength() const { return strength_; }
   double range() const { return range_; }
 
-  /// Adds the repulsion to the force on each node.
-  /// @param position, force  [n_nodes, 3], length and force
-  void add_forces(const ConstVectors& position, const Vectors& force) const;
+  ForcePromises promises() const override;
+  void add_forces(double time, const ConstVectors& position, const Vectors& force) const override;
+  void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
+                         const Vectors& change) const override;
 
-  /// Adds the first-order change of these forces when nodes move by `displacement`.
-  /// @param position, displacement, change  [n_nodes, 3], length, length and force
-  void add_force_changes(const ConstVectors& position, const ConstVectors& displacement, const Vectors& change) const;
-
-  /// Adds its energy, force * length, half of a pair to each fiber. @param energy  [n_fibers]
-  void add_energies(const ConstVectors& position, std::vector<double>& energy) const;
+  /// Half of a pair's energy goes to each fiber.
+  void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const override;
 
   /// Sum over pairs of d f / 2, d from the other section's centroid and f the force on the fiber's: summed over all
-  /// fibers the first moment of these forces. Force * length.
-  /// @returns [n_fibers], each xx, yy, zz, yz, xz, xy
-  std::vector<std::array<double, 6>> compute_moments(const ConstVectors& position) const;
+  /// fibers the first moment of these forces.
+  void add_moments(const std::vector<Fiber>& fibers, double time, const ConstVectors& position,
+                   std::vector<SymmetricTensor>& moment) const override;
+  std::string describe() const override;
 
  private:
-  void locate(const ConstVectors& position) const;
-
   double strength_, range_;
-  int n_nodes_;
   std::vector<int> n_sections_;  ///< [n_fibers]
-  std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
+  Sections sections_;
   Vectors displacement_;  ///< [n_sections, 3]
 };
 
 /// The range that a scene asks for, length: 0 stands for the radius of the thinnest fiber.
 double find_repulsion_range(const RepulsionConfig& config, const std::vector<Fiber>& fibers);
-
-/// What a scene asks for; null where its strength is 0.
-std::unique_ptr<SectionRepulsion> make_section_repulsion(const RepulsionConfig& config,
-                                                         const std::vector<Fiber>& fibers);
 
 }  // namespace skein

@@ -21,11 +21,9 @@ struct ControlOptions {
 double largest_controlled_step(const ControlOptions& options);
 
 /// One-step methods that estimate their error: what they share is here, the attempt of a step is theirs. A rejected
-/// attempt leaves no trace but in the controller, a step that throws none at all.
+/// attempt leaves no trace but in the controller.
 class ControlledIntegrator : public Integrator {
  public:
-  StepReport advance(State& state, double end) final;
-
   /// Cubic Hermite polynomial of both ends' positions and velocities: third order.
   void interpolate(double time, const Vectors& position) const final;
   void visit_memory(MemoryVisitor& visitor) override;
@@ -51,8 +49,6 @@ class ControlledIntegrator : public Integrator {
   virtual void prepare(double time, const ConstVectors& position, const ConstVectors& velocity) = 0;
   virtual void prepare_again(double time, const ConstVectors& position, const ConstVectors& velocity,
                              const std::string& fault) = 0;
-  virtual void keep_memory() = 0;
-  virtual void bring_memory_back() = 0;
 
   virtual double largest_step() const;
   virtual double spectral_radius() const { return 0.0; }
@@ -67,14 +63,13 @@ class ControlledIntegrator : public Integrator {
   /// Which node's velocity at a position is not finite.
   std::string find_velocity_fault(const ConstVectors& position, const ConstVectors& velocity);
 
-  RightHandSide& rhs_;
   ControlOptions options_;
   Vectors start_, start_velocity_;  ///< y_n and F_n of the step in work, or of the last accepted one
   Vectors end_, end_velocity_;      ///< y_(n+1) and F_(n+1)
   Vectors scratch_;                 ///< free before and after an attempt, and inside it
 
  private:
-  StepReport take_step(State& state, double end);
+  StepReport take_step(State& state, double end) final;
   void swap_ends();
   double first_step(double time);
   double choose_step() const;
@@ -86,14 +81,6 @@ class ControlledIntegrator : public Integrator {
   StepControl control_;
   double next_dt_ = 0.0;
   bool started_ = false;
-
-  struct Kept {
-    StepControl control;
-    double next_dt = 0.0;
-    bool started = false;
-  };
-  Kept kept_;
-  bool in_step_ = false;  ///< start_ holds the last accepted positions, not end_
   double step_start_ = 0.0, step_end_ = 0.0;
 };
 

@@ -11,15 +11,14 @@ class Euler final : public Integrator {
   /// @param dt  > 0, time
   Euler(RightHandSide& rhs, double dt, double length_scale, int n_nodes);
 
-  StepReport advance(State& state, double end) override;
   void interpolate(double time, const Vectors& position) const override;
   void visit_memory(MemoryVisitor& visitor) override;
   std::string describe() const override;
 
  private:
+  StepReport take_step(State& state, double end) override;
   std::string explain_instability(double radius) const;
 
-  RightHandSide& rhs_;
   double dt_;
   double length_scale_;
   double spectral_radius_ = 0.0;  ///< at the start, 1 / time; 0 before the first step

@@ -33,8 +33,6 @@ class ExplicitRungeKutta final : public ControlledIntegrator {
   Attempt attempt(double time, double dt) override;
   void prepare(double, const ConstVectors&, const ConstVectors&) override {}
   void prepare_again(double, const ConstVectors&, const ConstVectors&, const std::string&) override {}
-  void keep_memory() override {}
-  void bring_memory_back() override {}
 
   /// target = start_ + dt sum of factor[i] stage velocity i.
   void add_stages(const Vectors& target, double dt, const std::vector<double>& factor);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/arrays/memory_visitor.hpp>
+#include <skein/arrays/memory_snapshot.hpp>
 #include <skein/solvers/right_hand_side.hpp>
 
 #include <cstdint>
@@ -33,17 +33,30 @@ class Integrator {
 
   /// Takes one accepted step that does not pass `end`, replacing state.time, state.step and state.position.
   /// @throws Error(numerical) naming node and time when positions are no longer finite, when they left the model's
-  ///         range, or when the step fell below its minimum. After this and any other exception the state and this
-  ///         object's memory are those before the call.
-  virtual StepReport advance(State& state, double end) = 0;
+  ///         range, or when the step fell below its minimum. After this and any other exception the state and what this
+  ///         object and the right-hand side remember are those before the call: callers have nothing to undo.
+  StepReport advance(State& state, double end);
 
-  /// Positions at a time inside the last accepted step: output at exact times does not change the steps taken.
+  /// Positions at a time inside the last accepted step, until the next call of advance: output at exact times does not
+  /// change the steps taken.
   virtual void interpolate(double time, const Vectors& position) const = 0;
 
   /// All that the next step depends on besides the state: what a restart needs, and no more.
   virtual void visit_memory(MemoryVisitor& visitor) = 0;
 
   virtual std::string describe() const = 0;
+
+ protected:
+  /// @param rhs  must outlive the integrator
+  explicit Integrator(RightHandSide& rhs) : rhs_(rhs) {}
+
+  /// The step itself. The state is changed only once the step is accepted.
+  virtual StepReport take_step(State& state, double end) = 0;
+
+  RightHandSide& rhs_;
+
+ private:
+  MemorySnapshot before_;
 };
 
 }  // namespace skein

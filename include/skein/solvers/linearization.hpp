@@ -12,8 +12,8 @@ class Linearization {
  public:
   virtual ~Linearization() = default;
 
-  /// From now on, A is that of these positions, [n_nodes, 3].
-  virtual void set_position(const ConstVectors& position) = 0;
+  /// From now on, A is that of these positions, [n_nodes, 3], at this time.
+  virtual void set_position(double time, const ConstVectors& position) = 0;
 
   /// Overwrites result with A v. Counts as one evaluation.
   virtual void multiply(const ConstVectors& v, const Vectors& result) = 0;

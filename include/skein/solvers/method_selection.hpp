@@ -22,9 +22,8 @@ MethodSelection select_method(const ControlOptions& options, double spectral_rad
 /// An integrator that was chosen, and says so.
 class SelectedIntegrator final : public Integrator {
  public:
-  SelectedIntegrator(std::unique_ptr<Integrator> integrator, std::string reason);
+  SelectedIntegrator(RightHandSide& rhs, std::unique_ptr<Integrator> integrator, std::string reason);
 
-  StepReport advance(State& state, const double end) override { return integrator_->advance(state, end); }
   void interpolate(const double time, const Vectors& position) const override {
     integrator_->interpolate(time, position);
   }
@@ -32,6 +31,8 @@ class SelectedIntegrator final : public Integrator {
   std::string describe() const override;
 
  private:
+  StepReport take_step(State& state, const double end) override { return integrator_->advance(state, end); }
+
   std::unique_ptr<Integrator> integrator_;
   std::string reason_;
 };

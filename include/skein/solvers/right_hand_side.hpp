@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/arrays/memory_visitor.hpp>
 #include <skein/arrays/types.hpp>
 #include <skein/solvers/linearization.hpp>
 
@@ -16,11 +17,14 @@ class RightHandSide {
   /// Overwrites velocity, [n_nodes, 3], length / time. Counts as one evaluation.
   virtual void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) = 0;
 
-  /// What is wrong with these positions, naming the node; empty where they are fit to go on from. One pass over the
-  /// nodes on the device.
+  /// What is wrong with these positions, naming the node; empty where they are fit to go on from. One launch and one
+  /// wait.
   virtual std::string find_fault(const ConstVectors& position) const = 0;
 
   virtual std::int64_t evaluations() const = 0;
+
+  /// All that later velocities depend on besides the arguments.
+  virtual void visit_memory(MemoryVisitor& /*visitor*/) {}
 
   /// Its stiff part; null where it has none to offer. Belongs to this object.
   virtual Linearization* linearization() { return nullptr; }

@@ -30,8 +30,6 @@ class Rkc2 final : public ControlledIntegrator {
   void prepare(double time, const ConstVectors& position, const ConstVectors& velocity) override;
   void prepare_again(double time, const ConstVectors& position, const ConstVectors& velocity,
                      const std::string& fault) override;
-  void keep_memory() override;
-  void bring_memory_back() override;
   double largest_step() const override;
   double spectral_radius() const override { return spectral_radius_; }
   double probe_step() const override;
@@ -42,9 +40,6 @@ class Rkc2 final : public ControlledIntegrator {
   double spectral_radius_ = 0.0;  ///< with its margin, 1 / time
   int steps_since_refresh_ = 0;
 
-  double kept_radius_ = 0.0;  ///< memory at the start of the step, as both below
-  int kept_steps_ = 0;
-  Vectors kept_direction_;
   Vectors stage_[3], stage_velocity_;
 };
 

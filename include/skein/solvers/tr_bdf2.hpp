@@ -28,8 +28,6 @@ class TrBdf2 final : public ControlledIntegrator {
   Attempt attempt(double time, double dt) override;
   void prepare(double time, const ConstVectors& position, const ConstVectors& velocity) override;
   void prepare_again(double, const ConstVectors&, const ConstVectors&, const std::string&) override {}
-  void keep_memory() override {}
-  void bring_memory_back() override;
   double largest_step() const override;
 
   /// What the preconditioner was made of, and what it has cost since.
@@ -51,8 +49,8 @@ class TrBdf2 final : public ControlledIntegrator {
 
   Linearization& linearization_;
   Gmres gmres_;
-  Preconditioner preconditioner_, kept_;
-  Vectors factorized_position_, kept_position_;
+  Preconditioner preconditioner_;
+  Vectors factorized_position_;
   std::int64_t number_made_ = -1;          ///< of the factors in the linearization
   int iterations_ = 0, newton_steps_ = 0;  ///< of the attempt in work
 

@@ -2,8 +2,8 @@
 
 namespace skein {
 
-/// A run of nodes [first, first + count).
-struct Run {
+/// The indices [first, first + count), of nodes or boxes.
+struct IndexRange {
   int first = 0;
   int count = 0;
 };

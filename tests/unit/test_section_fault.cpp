@@ -1,10 +1,8 @@
-#include "kernels/node_fault.hpp"
-#include "tests/reference/point_cloud.hpp"
+#include <skein/physics/sections.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace skein {
@@ -14,13 +12,11 @@ constexpr double radius = 0.13;
 constexpr double max_ratio = 4.0;
 constexpr int n_sections = 40;
 constexpr int nodes_per_section = 9;
-constexpr int first_node = 23;  // of the run: nodes of other fibers lie before and after it
+constexpr int first_node = 24;  // of the tube: nodes of other fibers lie before and after it
 constexpr int last_node = first_node + n_sections * nodes_per_section - 1;
-constexpr SectionRun run{first_node, n_sections, nodes_per_section, radius};
-
-/// A tube of rings; the nodes of others are where none may be.
+/// A tube of rings, and sound sections of the other fibers far away.
 std::vector<Vec3> make_tube() {
-  std::vector<Vec3> position(last_node + 1 + 17, Vec3{1e5, -1e5, 3e4});
+  std::vector<Vec3> position(last_node + 1 + first_node, Vec3{1e5, -1e5, 3e4});
   for (int s = 0; s < n_sections; ++s)
     for (int a = 0; a < nodes_per_section; ++a) {
       const double angle = 2.0 * std::numbers::pi * a / nodes_per_section;
@@ -30,8 +26,16 @@ std::vector<Vec3> make_tube() {
   return position;
 }
 
+/// Three fibers, of which the tube is the second; the others are small.
+std::vector<Fiber> make_three_fibers() {
+  FiberConfig small, tube;
+  small.sections = 4, small.nodes_per_section = 6, small.radius = 0.02;
+  tube.sections = n_sections, tube.nodes_per_section = nodes_per_section, tube.radius = radius;
+  return make_fibers({small, tube, small});
+}
+
 int find(const std::vector<Vec3>& position) {
-  return find_faulty_node<ExecSpace>(ExecSpace(), to_device("test::position", position), run, max_ratio);
+  return Sections(make_three_fibers()).find_faulty_node(to_device("position", position), max_ratio);
 }
 
 TEST(FindFaultyNode, FindsNothingInASoundFiber) { EXPECT_EQ(find(make_tube()), -1); }
@@ -72,10 +76,15 @@ TEST(FindFaultyNode, DoesNotMindWhereTheFiberIs) {
   EXPECT_EQ(find(position), -1);
 }
 
-TEST(FindFaultyNode, LooksAtItsRunAlone) {
+TEST(FindFaultyNode, NamesTheFirstOfAllFibers) {
   auto position = make_tube();
-  position[first_node - 1].x = position[last_node + 1].y = std::nan("");
-  EXPECT_EQ(find(position), -1);
+  position[last_node + 1].y = std::nan("");
+  EXPECT_EQ(find(position), last_node + 1);
+  position[first_node + 100].x = HUGE_VAL;
+  EXPECT_EQ(find(position), first_node + 100);
+  // Each fiber's own radius counts: what the tube allows bursts a small one.
+  position[3].x += 3.0 * radius;
+  EXPECT_EQ(find(position), 3);
 }
 
 }  // namespace

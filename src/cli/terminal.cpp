@@ -1,4 +1,4 @@
-#include "runs/terminal.hpp"
+#include "cli/terminal.hpp"
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>

@@ -1,8 +1,8 @@
-#include "runs/progress.hpp"
+#include "cli/progress.hpp"
 
 #include <skein/core/duration.hpp>
 
-#include "runs/terminal.hpp"
+#include "cli/terminal.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+#include <skein/core/symmetric_tensor.hpp>
+#include <skein/fibers/fiber.hpp>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// What a force promises. Tests hold every force to its promises, and what reads forces asks for them instead of for
+/// kinds.
+struct ForcePromises {
+  bool is_balanced = false;           ///< its sum over all nodes is zero
+  bool is_torque_free = false;        ///< its torque about any point is zero
+  bool is_conservative = false;       ///< it is minus the gradient of its energy at every moment
+  bool is_steady = false;             ///< it does not depend on time
+  bool is_frame_indifferent = false;  ///< nodes that move as a rigid body carry it with them
+  bool acts_between_fibers = false;   ///< one fiber may take from it what another gives
+};
+
+/// What acts on nodes besides the fluid: springs, a repulsion, gravity, ... A scene's forces are a list of these
+/// (see physics.hpp), and each has a row in tests/property/test_force.cpp.
+///
+/// Forces are those of the nodes ON the fluid. Positions, displacements, velocities and forces are [n_nodes, 3]; calls
+/// return before a device has finished, and results do not depend on the number of threads. One call at a time: objects
+/// hold scratch. @throws Error(internal) where extents are not those of the fibers
+class Force {
+ public:
+  virtual ~Force() = default;
+
+  virtual ForcePromises promises() const = 0;
+
+  /// Adds the force on each node. @param position  length
+  virtual void add_forces(double time, const ConstVectors& position, const Vectors& force) const = 0;
+
+  /// Adds the first-order change of these forces when nodes move by `displacement`, length.
+  virtual void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
+                                 const Vectors& change) const = 0;
+
+  /// Adds its energy, force * length; halves of what two fibers share. A force that has none adds nothing.
+  /// @param energy  [n_fibers]
+  virtual void add_energies(double /*time*/, const ConstVectors& /*position*/, std::vector<double>& /*energy*/) const {}
+
+  /// Adds the power that comes from outside: of forces without an energy, force . velocity; of an energy that changes
+  /// with time, its rate at fixed positions. Force * length / time. A steady conservative force adds nothing.
+  /// @param velocity  of the nodes, length / time  @param power  [n_fibers]
+  virtual void add_drive_powers(double /*time*/, const ConstVectors& /*position*/, const ConstVectors& /*velocity*/,
+                                std::vector<double>& /*power*/) const {}
+
+  /// Adds the symmetric part of the first moment of its forces, sum of (x - centroid of the fiber) f, for each fiber:
+  /// what particle stress is made of. A force between fibers may count arms between them instead. Force * length
+  /// @param moment  [n_fibers]
+  virtual void add_moments(const std::vector<Fiber>& fibers, double time, const ConstVectors& position,
+                           std::vector<SymmetricTensor>& moment) const;
+
+  /// The largest relative change of length of its bonds; 0 for a force without bonds. Waits for the device.
+  virtual double compute_largest_strain(const ConstVectors& /*position*/) const { return 0.0; }
+
+  /// Shortest time in which it changes by itself; infinite for a steady force.
+  virtual double time_scale() const { return std::numeric_limits<double>::infinity(); }
+
+  /// One line for the first lines of a run.
+  virtual std::string describe() const = 0;
+};
+
+}  // namespace skein

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <skein/fibers/fiber.hpp>
+#include <skein/physics/background_flow.hpp>
+#include <skein/physics/force.hpp>
+#include <skein/physics/mobility.hpp>
+#include <skein/physics/sections.hpp>
+#include <skein/scene/scene_config.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// All that a scene says of the world, ready to be asked: fibers, the forces on their nodes, the flow and the fluid.
+/// Runs, analyses, benches and users of the library make it by make_physics, and may replace its parts before it is
+/// used.
+struct Physics {
+  std::vector<Fiber> fibers;
+  std::vector<std::unique_ptr<Force>> forces;  ///< in the order in which they are added up; springs first
+  std::unique_ptr<BackgroundFlow> flow;
+  std::unique_ptr<Mobility> mobility;
+  Sections sections;       ///< of the fibers
+  Scalars blob;            ///< [n_nodes], length
+  double viscosity = 1.0;  ///< force * time / length^2
+
+  /// Overwrites force, [n_nodes, 3], with the sum of all forces on each node.
+  void compute_forces(double time, const ConstVectors& position, const Vectors& force) const;
+
+  /// Overwrites change, [n_nodes, 3], with the first-order change of the forces when nodes move by `displacement`.
+  void compute_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
+                             const Vectors& change) const;
+
+  /// Of all forces that have one, force * length. @returns [n_fibers]
+  std::vector<double> compute_energies(double time, const ConstVectors& position) const;
+
+  /// Over all forces. Waits for the device.
+  double compute_largest_strain(const ConstVectors& position) const;
+
+  /// True where some force acts between fibers, such as one that keeps them apart.
+  bool has_force_between_fibers() const;
+
+  /// Shortest time in which the flow or a force changes, or the flow changes what it carries; infinite where nothing
+  /// does.
+  double time_scale() const;
+
+  /// The forces in words, a line; springs, which every scene has, are passed over. Empty where there are no others.
+  std::string describe_forces() const;
+};
+
+/// The physics of a scene, whose fibers are as written (see place_fibers).
+/// @throws Error(scene_error) where the scene asks for what cannot be delivered
+Physics make_physics(const SceneConfig& scene);
+
+}  // namespace skein

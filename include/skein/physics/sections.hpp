@@ -1,0 +1,50 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+#include <skein/fibers/fiber.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace skein {
+
+template <class Space>
+struct SectionBoxes;
+
+/// The sections of all fibers on the device: what is asked of all of them takes one launch or a few, however many
+/// fibers there are. One call at a time: the object holds scratch.
+class Sections {
+ public:
+  explicit Sections(const std::vector<Fiber>& fibers);
+  ~Sections();
+  Sections(Sections&&) noexcept;
+  Sections& operator=(Sections&&) noexcept;
+
+  int n_nodes() const { return n_nodes_; }
+  int n_sections() const { return n_sections_; }
+
+  /// The first node that is not finite, or farther from its section's centroid than max_ratio radii of its fiber; -1
+  /// where there is none. One launch and one wait.
+  /// @param position  [n_nodes, 3], length, as in all calls below
+  int find_faulty_node(const ConstVectors& position, double max_ratio) const;
+
+  /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
+  void compute_means(const ConstVectors& vector, const Vectors& mean) const;
+
+  /// Centroids of all sections. @returns [n_sections], length
+  std::vector<Vec3> compute_centreline(const ConstVectors& position) const;
+
+  /// The smallest distance between the surfaces of two fibers, or of distant sections of one (see
+  /// Fiber::distant_sections), taken as spheres about the sections' centroids; negative where they overlap, infinite
+  /// where there is no such pair. Length
+  double compute_smallest_gap(const ConstVectors& position) const;
+
+  /// Centroids, and boxes about blocks of sections and about fibers, of nodes at `position`: for kernels.
+  const SectionBoxes<ExecSpace>& locate(const ConstVectors& position) const;
+
+ private:
+  int n_nodes_, n_sections_;
+  std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
+};
+
+}  // namespace skein

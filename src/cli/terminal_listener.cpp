@@ -1,0 +1,25 @@
+#include "cli/terminal_listener.hpp"
+
+#include <cstdio>
+
+namespace skein {
+
+void TerminalListener::begin(const double time, const double end_time, const std::int64_t evaluations) {
+  progress_.emplace(ProgressReport::choose_kind(quiet_), time, end_time, evaluations);
+}
+
+void TerminalListener::say(const std::string& text) {
+  if (quiet_) return;
+  if (progress_) progress_->clear();
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void TerminalListener::advance(const double time, const std::int64_t evaluations) {
+  if (progress_) progress_->update(time, evaluations);
+}
+
+void TerminalListener::end() {
+  if (progress_) progress_->clear();
+}
+
+}  // namespace skein

@@ -1,0 +1,11 @@
+#include "force_table.hpp"
+
+namespace skein {
+
+ForceList make_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+  ForceList forces;
+  for (const auto append : {append_springs, append_repulsion}) append(scene, fibers, forces);
+  return forces;
+}
+
+}  // namespace skein

@@ -1,0 +1,65 @@
+#include <skein/physics/make_mobility.hpp>
+#include <skein/physics/physics.hpp>
+
+#include "force_table.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace skein {
+
+void Physics::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
+  Kokkos::deep_copy(ExecSpace(), force, 0.0);
+  for (const auto& part : forces) part->add_forces(time, position, force);
+}
+
+void Physics::compute_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
+                                    const Vectors& change) const {
+  Kokkos::deep_copy(ExecSpace(), change, 0.0);
+  for (const auto& part : forces) part->add_force_changes(time, position, displacement, change);
+}
+
+std::vector<double> Physics::compute_energies(const double time, const ConstVectors& position) const {
+  std::vector<double> energy(fibers.size());
+  for (const auto& part : forces) part->add_energies(time, position, energy);
+  return energy;
+}
+
+double Physics::compute_largest_strain(const ConstVectors& position) const {
+  double largest = 0.0;
+  for (const auto& part : forces) largest = std::max(largest, part->compute_largest_strain(position));
+  return largest;
+}
+
+bool Physics::has_force_between_fibers() const {
+  return std::any_of(forces.begin(), forces.end(),
+                     [](const auto& part) { return part->promises().acts_between_fibers; });
+}
+
+double Physics::time_scale() const {
+  double scale = flow->time_scale();
+  for (const auto& part : forces) scale = std::min(scale, part->time_scale());
+  return scale;
+}
+
+std::string Physics::describe_forces() const {
+  std::string text;
+  for (std::size_t i = 1; i < forces.size(); ++i) text += (text.empty() ? "" : "; ") + forces[i]->describe();
+  return text;
+}
+
+Physics make_physics(const SceneConfig& scene) {
+  std::vector<Fiber> fibers = make_fibers(scene.fibers);
+  Sections sections(fibers);
+  Scalars blob = to_device("skein::Physics::blob", make_blobs(fibers));
+  std::vector<std::unique_ptr<Force>> forces = make_forces(scene, fibers);
+  return {.fibers = std::move(fibers),
+          .forces = std::move(forces),
+          .flow = make_background_flow(scene.flows),
+          .mobility = make_mobility(scene),
+          .sections = std::move(sections),
+          .blob = blob,
+          .viscosity = scene.fluid.viscosity};
+}
+
+}  // namespace skein

@@ -1,0 +1,75 @@
+#include <skein/core/error.hpp>
+#include <skein/physics/sections.hpp>
+
+#include "device_list.hpp"
+#include "kernels/section_boxes.hpp"
+#include "kernels/section_fault.hpp"
+#include "kernels/section_gap.hpp"
+
+namespace skein {
+namespace {
+
+SectionBoxes<ExecSpace> make_boxes(const std::vector<Fiber>& fibers) {
+  std::vector<FiberSections> boxed;
+  std::vector<int> fiber_of_block;
+  for (const Fiber& fiber : fibers) {
+    boxed.push_back({.first_node = fiber.first_node,
+                     .first_section = fiber.first_section,
+                     .first_block = static_cast<int>(fiber_of_block.size()),
+                     .n_sections = fiber.config.sections,
+                     .nodes_per_section = fiber.config.nodes_per_section,
+                     .distant_sections = fiber.distant_sections(),
+                     .radius = fiber.config.radius,
+                     .spacing = fiber.spacing()});
+    fiber_of_block.insert(fiber_of_block.end(), math::ceil_div(fiber.config.sections, sections_per_block),
+                          static_cast<int>(boxed.size()) - 1);
+  }
+  const std::size_t n_fibers = boxed.size(), n_blocks = fiber_of_block.size();
+  SectionBoxes<ExecSpace> boxes;
+  boxes.fiber = copy_to_device("skein::SectionBoxes::fiber", boxed);
+  boxes.fiber_of_block = copy_to_device("skein::SectionBoxes::fiber_of_block", fiber_of_block);
+  boxes.centroid = Vectors("skein::SectionBoxes::centroid", static_cast<std::size_t>(count_sections(fibers)));
+  boxes.block_low = Vectors("skein::SectionBoxes::block_low", n_blocks);
+  boxes.block_high = Vectors("skein::SectionBoxes::block_high", n_blocks);
+  boxes.fiber_low = Vectors("skein::SectionBoxes::fiber_low", n_fibers);
+  boxes.fiber_high = Vectors("skein::SectionBoxes::fiber_high", n_fibers);
+  return boxes;
+}
+
+}  // namespace
+
+Sections::Sections(const std::vector<Fiber>& fibers)
+    : n_nodes_(count_nodes(fibers)),
+      n_sections_(count_sections(fibers)),
+      boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(fibers))) {}
+
+Sections::~Sections() = default;
+Sections::Sections(Sections&&) noexcept = default;
+Sections& Sections::operator=(Sections&&) noexcept = default;
+
+int Sections::find_faulty_node(const ConstVectors& position, const double max_ratio) const {
+  SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
+  return skein::find_faulty_node<ExecSpace>(ExecSpace(), *boxes_, position, max_ratio);
+}
+
+void Sections::compute_means(const ConstVectors& vector, const Vectors& mean) const {
+  SKEIN_REQUIRE(vector.extent_int(0) == n_nodes_, "a vector for each of the fibers' nodes is needed");
+  compute_section_means<ExecSpace>(ExecSpace(), *boxes_, vector, mean);
+}
+
+std::vector<Vec3> Sections::compute_centreline(const ConstVectors& position) const {
+  compute_means(position, boxes_->centroid);
+  return to_host(ConstVectors(boxes_->centroid));
+}
+
+double Sections::compute_smallest_gap(const ConstVectors& position) const {
+  return skein::compute_smallest_gap<ExecSpace>(ExecSpace(), locate(position));
+}
+
+const SectionBoxes<ExecSpace>& Sections::locate(const ConstVectors& position) const {
+  SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
+  locate_sections<ExecSpace>(ExecSpace(), *boxes_, position);
+  return *boxes_;
+}
+
+}  // namespace skein

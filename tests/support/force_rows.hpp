@@ -1,0 +1,22 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+namespace skein::test {
+
+/// A kind of force: its name, and what a scene says to have it. It is the last force of the scene that is made.
+struct ForceRow {
+  const char* name;
+  void (*configure)(SceneConfig& scene);
+};
+
+/// Every kind of force: a new one joins the property test and the comparison of thread counts by one row.
+inline const ForceRow force_rows[] = {
+    {"springs", [](SceneConfig&) {}},
+    {"repulsion",
+     [](SceneConfig& scene) {
+       scene.repulsion = {2.3, 0.0071};
+     }},
+};
+
+}  // namespace skein::test

@@ -1,0 +1,97 @@
+// What a step launches and waits for does not grow with the number of fibers.
+#include <skein/dynamics/make_integrator.hpp>
+
+#include "runs/observables.hpp"
+#include "tests/support/direct_physics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+namespace skein {
+namespace {
+
+/// Kernels, and copies and reductions that bring something to the host: what Kokkos tells its tools.
+struct Launches {
+  int kernels = 0, reductions = 0, copies = 0;
+  friend bool operator==(const Launches&, const Launches&) = default;
+};
+Launches counted;
+
+void count_kernel(const char*, std::uint32_t, std::uint64_t*) { ++counted.kernels; }
+void count_reduction(const char*, std::uint32_t, std::uint64_t*) { ++counted.reductions; }
+void count_copy(Kokkos::Tools::SpaceHandle, const char*, const void*, Kokkos::Tools::SpaceHandle, const char*,
+                const void*, std::uint64_t) {
+  ++counted.copies;
+}
+
+/// Counts from its beginning to its end.
+class Counting {
+ public:
+  Counting() {
+    counted = {};
+    Kokkos::Tools::Experimental::set_begin_parallel_for_callback(count_kernel);
+    Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(count_kernel);
+    Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(count_reduction);
+    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(count_copy);
+  }
+  ~Counting() {
+    Kokkos::Tools::Experimental::set_begin_parallel_for_callback(nullptr);
+    Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(nullptr);
+    Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(nullptr);
+    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(nullptr);
+  }
+};
+
+/// Many short fibers on a grid, far from each other.
+SceneConfig make_scene(const int n_fibers) {
+  SceneConfig scene;
+  FiberConfig fiber;
+  fiber.sections = 3;
+  fiber.nodes_per_section = 3;
+  fiber.blob = 0.005;
+  for (int f = 0; f < n_fibers; ++f) {
+    fiber.center = {0.07 * (f % 10), 0.06 * (f / 10 % 10), 0.06 * (f / 100)};
+    scene.fibers.push_back(fiber);
+  }
+  scene.repulsion = {1.0, 0.005};
+  scene.time.step = 1e-4;
+  return scene;
+}
+
+/// Of the second step: what the first sets up is not counted.
+Launches count_step(const int n_fibers) {
+  const SceneConfig scene = make_scene(n_fibers);
+  Physics physics = test::make_direct_physics(scene);
+  FiberDynamics dynamics(physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
+  State state{0.0, 0, to_device("position", make_surface_nodes(physics.fibers))};
+  integrator->advance(state, 1.0);
+  const Counting counting;
+  const StepReport report = integrator->advance(state, 1.0);
+  EXPECT_EQ(report.stages, 2);
+  make_step_record(physics, state, report);
+  make_frame(physics, state.step, state.time, state.position);
+  return counted;
+}
+
+TEST(LaunchCounts, OfAStepItsRecordAndItsFrameDoNotGrowWithTheNumberOfFibers) {
+  const Launches few = count_step(2), many = count_step(1000);
+  EXPECT_GT(few.kernels, 5) << "the tool is not asked";
+  EXPECT_GT(few.reductions, 0);
+  EXPECT_EQ(few, many) << many.kernels << " kernels, " << many.reductions << " reductions, " << many.copies
+                       << " copies; of two fibers " << few.kernels << ", " << few.reductions << ", " << few.copies;
+}
+
+TEST(LaunchCounts, OfTheSearchForFaultsIsOneLaunchAndOneWait) {
+  for (const int n_fibers : {1, 1000}) {
+    const Physics physics = test::make_direct_physics(make_scene(n_fibers));
+    const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
+    const Counting counting;
+    EXPECT_EQ(physics.sections.find_faulty_node(position, 2.0), -1);
+    EXPECT_EQ(counted, (Launches{.kernels = 0, .reductions = 1, .copies = 0}));
+  }
+}
+
+}  // namespace
+}  // namespace skein
