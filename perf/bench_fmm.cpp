@@ -134,7 +134,7 @@ double nearest_boxes_error(const FmmOptions& chosen, const double blob_over_half
 
 void print_nearest_boxes(const char* name, const FmmOptions& chosen, const double ratio) {
   FmmOptions options = chosen;
-  options.precision = FmmPrecision::in_double;
+  options.precision = Precision::in_double;
   std::printf("%s,%g,%d,%g,%.1e,%.1e\n", name, ratio, options.order, options.singular_cutoff,
               nearest_boxes_error(options, ratio), harmonic_floor(ratio, 1.0));
   std::fflush(stdout);
@@ -283,7 +283,7 @@ void bench_setup(const bool tiny) {
         options.tolerance = 1.0;
         options.leaf_size = 60;
         options.min_half_width = 0.006;
-        options.precision = in_single ? FmmPrecision::in_single : FmmPrecision::in_double;
+        options.precision = in_single ? Precision::in_single : Precision::in_double;
         if (!in_single) options.singular_cutoff = 1e-15;
         FmmMobility fmm(viscosity, options);
         Case problem(nodes, 1e-4);
@@ -324,7 +324,7 @@ void bench_chart(const bool tiny) {
       FmmOptions harmonic;
       harmonic.tolerance = 1.0;
       harmonic.order = p;
-      harmonic.precision = FmmPrecision::in_double;
+      harmonic.precision = Precision::in_double;
       const double error = choose_fmm_plan(harmonic, 0.0, 0).expected_error;  // the order's own
       FmmOptions options;
       options.far_field = field;

@@ -25,9 +25,9 @@ FmmOptions make_fmm_options(const HydrodynamicsConfig& config) {
                                                           : FarField::harmonic;
   options.order = config.order;
   options.leaf_size = config.leaf_size;
-  options.precision = config.precision == "double"   ? FmmPrecision::in_double
-                      : config.precision == "single" ? FmmPrecision::in_single
-                                                     : FmmPrecision::automatic;
+  options.precision = config.precision == "double"   ? Precision::in_double
+                      : config.precision == "single" ? Precision::in_single
+                                                     : Precision::automatic;
   options.check_every = config.check_every;
   options.on_miss = config.on_miss == "stop" ? OnMiss::stop : OnMiss::raise_order;
   return options;
