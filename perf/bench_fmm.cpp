@@ -6,6 +6,7 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
+#include <skein/scene/words.hpp>
 
 #include "harness.hpp"
 #include "node_arrangements.hpp"
@@ -340,11 +341,8 @@ void bench_chart(const bool tiny) {
                                                     problem.move_nodes();
                                                     problem.compute(fmm);
                                                   }});
-        std::printf("straight,%d,%s,%d,%.4f,%.2e\n", problem.n,
-                    field == FarField::harmonic    ? "fmm_harmonic"
-                    : field == FarField::stokeslet ? "fmm_stokeslet"
-                                                   : "fmm_regularized",
-                    p, 1e3 * seconds[0], fmm.measure_error(problem.sources(), problem.position, 300));
+        std::printf("straight,%d,fmm_%s,%d,%.4f,%.2e\n", problem.n, word_of(field).c_str(), p, 1e3 * seconds[0],
+                    fmm.measure_error(problem.sources(), problem.position, 300));
         std::fflush(stdout);
       }
     }

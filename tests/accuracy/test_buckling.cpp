@@ -288,7 +288,7 @@ TEST(Buckling, ASimulatedFiberBucklesAtTheGrowthRateOfACompressedOne) {
   config.start_plane = 0.0;
   const auto fibers = make_fibers({config});
   FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers),
-                         make_background_flow({{.kind = "planar_extension", .rate = 1.25}}),
+                         make_background_flow({{.kind = FlowKind::planar_extension, .rate = 1.25}}),
                          std::make_unique<DirectMobility>(viscosity, Precision::in_double));
   State state{0.0, 0, to_device("position", make_surface_nodes(fibers))};
   Rkc2Options options;
