@@ -2,6 +2,8 @@
 
 #include <skein/arrays/types.hpp>
 
+#include <array>
+
 namespace skein {
 
 enum class FlowShape { linear, parabolic, cellular };
@@ -22,6 +24,9 @@ struct FlowTerms {
   FlowTerm term[n_allowed];
 };
 
+/// Gradients of the three components of a velocity, 1 / time.
+using FlowGradient = std::array<Vec3, 3>;
+
 /// velocity += the sum of the terms at each position.
 ///   linear     (gradient_x . d, gradient_y . d, gradient_z . d)
 ///   parabolic  (rate size/2 (1 - (d.y/size)^2), 0, 0)
@@ -30,5 +35,8 @@ struct FlowTerms {
 template <class Space>
 void add_flow_velocity(const Space& space, const FlowTerms& terms, const ConstVectorView<Space>& position,
                        const VectorView<Space>& velocity);
+
+/// Of the same velocity, on the host.
+FlowGradient compute_flow_gradient(const FlowTerm& term, Vec3 position);
 
 }  // namespace skein

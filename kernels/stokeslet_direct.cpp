@@ -101,15 +101,12 @@ template <class Space>
 void add_stokeslet_velocity(const Space& space, const ConstVectorView<Space>& source_position,
                             const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
                             const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
-                            const double viscosity, const PairPrecision precision) {
+                            const double viscosity, const Precision precision) {
   check_extents<Space>(source_position, source_force, blob, target, velocity);
   if (source_position.extent(0) == 0 || target.extent(0) == 0) return;
   if constexpr (on_host<Space>) {
     const HostSources sources{source_position, source_force, blob, regularized_stokeslet::scale(viscosity)};
-    if (precision == PairPrecision::in_double)
-      add_on_host<double>(space, sources, target, velocity);
-    else
-      add_on_host<float>(space, sources, target, velocity);
+    with_precision(precision, [&](auto number) { add_on_host<decltype(number)>(space, sources, target, velocity); });
   } else {
     add_stokeslet_velocity_by_teams<Space>(space, source_position, source_force, blob, target, velocity, viscosity,
                                            precision, device_team_size);
@@ -120,24 +117,24 @@ template <class Space>
 void add_stokeslet_velocity_by_teams(const Space& space, const ConstVectorView<Space>& source_position,
                                      const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
                                      const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
-                                     const double viscosity, const PairPrecision precision, const int team_size) {
+                                     const double viscosity, const Precision precision, const int team_size) {
   check_extents<Space>(source_position, source_force, blob, target, velocity);
   SKEIN_REQUIRE(team_size > 0, "a team needs a thread");
   if (source_position.extent(0) == 0 || target.extent(0) == 0) return;
   const double scale = regularized_stokeslet::scale(viscosity);
-  if (precision == PairPrecision::in_double)
-    add_by_teams<double, Space>(space, source_position, source_force, blob, target, velocity, scale, team_size);
-  else
-    add_by_teams<float, Space>(space, source_position, source_force, blob, target, velocity, scale, team_size);
+  with_precision(precision, [&](auto number) {
+    add_by_teams<decltype(number), Space>(space, source_position, source_force, blob, target, velocity, scale,
+                                          team_size);
+  });
 }
 
 #define SKEIN_INSTANTIATE(S)                                                                                          \
   template void add_stokeslet_velocity<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&,             \
                                           const ConstScalarView<S>&, const ConstVectorView<S>&, const VectorView<S>&, \
-                                          double, PairPrecision);                                                     \
+                                          double, Precision);                                                         \
   template void add_stokeslet_velocity_by_teams<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&,    \
                                                    const ConstScalarView<S>&, const ConstVectorView<S>&,              \
-                                                   const VectorView<S>&, double, PairPrecision, int);
+                                                   const VectorView<S>&, double, Precision, int);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -1,24 +1,23 @@
 #pragma once
 
 #include <skein/arrays/types.hpp>
+#include <skein/core/precision.hpp>
 
 namespace skein {
-
-/// Arithmetic of one pair. Single: differences keep double accuracy, sums are double beyond a tile; the result is good
-/// to about 1e-6.
-enum class PairPrecision { in_double, in_single };
 
 /// velocity += sum over sources of the regularized Stokeslet; blobs belong to the sources.
 ///
 /// @param source_position, source_force  [n_sources, 3];  @param blob  [n_sources], > 0
 /// @param target, velocity               [n_targets, 3]
+/// @param precision  arithmetic of one pair, not automatic. Single: differences keep double accuracy, sums are double
+///                   beyond a tile; the result is good to about 1e-6.
 ///
 /// The order of every sum is fixed by the tiles alone: the result does not depend on threads or teams.
 template <class Space>
 void add_stokeslet_velocity(const Space& space, const ConstVectorView<Space>& source_position,
                             const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
                             const ConstVectorView<Space>& target, const VectorView<Space>& velocity, double viscosity,
-                            PairPrecision precision);
+                            Precision precision);
 
 /// The same as GPUs compute it: a thread per target, and teams that share tiles of sources. Hosts have it so that its
 /// loop is tested everywhere; they use it for nothing else.
@@ -27,14 +26,14 @@ template <class Space>
 void add_stokeslet_velocity_by_teams(const Space& space, const ConstVectorView<Space>& source_position,
                                      const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
                                      const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
-                                     double viscosity, PairPrecision precision, int team_size);
+                                     double viscosity, Precision precision, int team_size);
 
 /// The general sum where every source is a target and all blobs are equal, on the host: S_eps is symmetric then, and
 /// each pair is weighed once for both of its nodes. perf/bench_direct compares it with the general sum.
 /// @param blob  [n_nodes], all equal (not checked); at least min_symmetric_nodes nodes.
 void add_symmetric_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,
                                       const ConstVectorView<HostSpace>& force, const ConstScalarView<HostSpace>& blob,
-                                      const VectorView<HostSpace>& velocity, double viscosity, PairPrecision precision);
+                                      const VectorView<HostSpace>& velocity, double viscosity, Precision precision);
 
 /// Below this many nodes the symmetric sum has too few tiles to keep threads busy.
 inline constexpr int min_symmetric_nodes = 256;

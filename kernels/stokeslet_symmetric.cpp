@@ -56,16 +56,13 @@ void add_symmetric(const HostSpace& space, const HostSources& nodes, const Vecto
 void add_symmetric_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,
                                       const ConstVectorView<HostSpace>& force, const ConstScalarView<HostSpace>& blob,
                                       const VectorView<HostSpace>& velocity, const double viscosity,
-                                      const PairPrecision precision) {
+                                      const Precision precision) {
   SKEIN_REQUIRE(position.extent(0) == force.extent(0) && position.extent(0) == blob.extent(0) &&
                     position.extent(0) == velocity.extent(0),
                 "positions, forces, blobs and velocities differ in number");
   SKEIN_REQUIRE(position.extent_int(0) >= min_symmetric_nodes, "too few nodes for the symmetric sum");
   const HostSources nodes{position, force, blob, regularized_stokeslet::scale(viscosity)};
-  if (precision == PairPrecision::in_double)
-    add_symmetric<double>(space, nodes, velocity);
-  else
-    add_symmetric<float>(space, nodes, velocity);
+  with_precision(precision, [&](auto number) { add_symmetric<decltype(number)>(space, nodes, velocity); });
 }
 
 }  // namespace skein

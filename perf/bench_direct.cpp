@@ -49,13 +49,13 @@ template <class Space>
 void add_symmetric_bodies(const Vectors& position, const Vectors& force, const Scalars& blob, const Vectors& velocity,
                           std::vector<std::string>& names, std::vector<std::function<void()>>& bodies) {
   if constexpr (on_host<Space>) {
-    const auto symmetric = [=](const PairPrecision precision) {
+    const auto symmetric = [=](const Precision precision) {
       Kokkos::deep_copy(velocity, 0.0);
       add_symmetric_stokeslet_velocity(Space(), position, force, blob, velocity, viscosity, precision);
     };
     names.insert(names.end(), {"symmetric, double", "symmetric, single"});
-    bodies.push_back([=] { symmetric(PairPrecision::in_double); });
-    bodies.push_back([=] { symmetric(PairPrecision::in_single); });
+    bodies.push_back([=] { symmetric(Precision::in_double); });
+    bodies.push_back([=] { symmetric(Precision::in_single); });
   }
 }
 
@@ -74,7 +74,7 @@ std::vector<Result> bench(const int sections) {
   const Vectors force = to_device("force", forces);
   const Scalars blob = to_device("blob", make_blobs(fibers));
   const Vectors velocity("velocity", n);
-  const auto general = [&](const PairPrecision precision) {
+  const auto general = [&](const Precision precision) {
     Kokkos::deep_copy(velocity, 0.0);
     add_stokeslet_velocity<ExecSpace>(ExecSpace(), position, force, blob, position, velocity, viscosity, precision);
   };
@@ -88,7 +88,7 @@ std::vector<Result> bench(const int sections) {
         plain_loop(n, x_float.data(), f_float.data(), static_cast<float>(config.blob), static_cast<float>(viscosity),
                    u_float.data());
       },
-      [&] { general(PairPrecision::in_double); }, [&] { general(PairPrecision::in_single); }};
+      [&] { general(Precision::in_double); }, [&] { general(Precision::in_single); }};
   add_symmetric_bodies<ExecSpace>(position, force, blob, velocity, names, bodies);
   const int repeats = n < 4000 ? 21 : n < 12000 ? 7 : 3;
   const auto seconds = perf::median_seconds(repeats, bodies);

@@ -6,6 +6,7 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
+#include <skein/scene/words.hpp>
 
 #include "harness.hpp"
 #include "node_arrangements.hpp"
@@ -134,7 +135,7 @@ double nearest_boxes_error(const FmmOptions& chosen, const double blob_over_half
 
 void print_nearest_boxes(const char* name, const FmmOptions& chosen, const double ratio) {
   FmmOptions options = chosen;
-  options.precision = FmmPrecision::in_double;
+  options.precision = Precision::in_double;
   std::printf("%s,%g,%d,%g,%.1e,%.1e\n", name, ratio, options.order, options.singular_cutoff,
               nearest_boxes_error(options, ratio), harmonic_floor(ratio, 1.0));
   std::fflush(stdout);
@@ -283,7 +284,7 @@ void bench_setup(const bool tiny) {
         options.tolerance = 1.0;
         options.leaf_size = 60;
         options.min_half_width = 0.006;
-        options.precision = in_single ? FmmPrecision::in_single : FmmPrecision::in_double;
+        options.precision = in_single ? Precision::in_single : Precision::in_double;
         if (!in_single) options.singular_cutoff = 1e-15;
         FmmMobility fmm(viscosity, options);
         Case problem(nodes, 1e-4);
@@ -324,7 +325,7 @@ void bench_chart(const bool tiny) {
       FmmOptions harmonic;
       harmonic.tolerance = 1.0;
       harmonic.order = p;
-      harmonic.precision = FmmPrecision::in_double;
+      harmonic.precision = Precision::in_double;
       const double error = choose_fmm_plan(harmonic, 0.0, 0).expected_error;  // the order's own
       FmmOptions options;
       options.far_field = field;
@@ -340,11 +341,8 @@ void bench_chart(const bool tiny) {
                                                     problem.move_nodes();
                                                     problem.compute(fmm);
                                                   }});
-        std::printf("straight,%d,%s,%d,%.4f,%.2e\n", problem.n,
-                    field == FarField::harmonic    ? "fmm_harmonic"
-                    : field == FarField::stokeslet ? "fmm_stokeslet"
-                                                   : "fmm_regularized",
-                    p, 1e3 * seconds[0], fmm.measure_error(problem.sources(), problem.position, 300));
+        std::printf("straight,%d,fmm_%s,%d,%.4f,%.2e\n", problem.n, word_of(field).c_str(), p, 1e3 * seconds[0],
+                    fmm.measure_error(problem.sources(), problem.position, 300));
         std::fflush(stdout);
       }
     }

@@ -59,13 +59,13 @@ void measure_all(const bool tiny) {
     const int sections = tiny ? 6 : 80;
     const double side = std::cbrt(n_fibers);
     SceneConfig bundle = make_scene(n_fibers, sections);
-    bundle.placement.kind = "grid";
+    bundle.placement.kind = PlacementKind::grid;
     bundle.placement.grid = {1.0, std::round(std::sqrt(n_fibers)), std::round(std::sqrt(n_fibers))};
     bundle.placement.spacing = {1.0, 0.012, 0.012};  // centrelines 2.4 radii apart
     measure("bundle", bundle);
     SceneConfig suspension = make_scene(n_fibers, sections);
-    suspension.placement.kind = "random";
-    suspension.placement.orientation = "random";
+    suspension.placement.kind = PlacementKind::random;
+    suspension.placement.orientation = Orientation::random;
     suspension.placement.box = {0.1 * side, 0.1 * side, 0.1 * side};  // n L^3 about 3
     measure("suspension", suspension);
   }

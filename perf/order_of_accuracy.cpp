@@ -6,6 +6,7 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
+#include <skein/scene/words.hpp>
 #include <skein/solvers/spectral_radius.hpp>
 
 #include "perf/orbit_scene.hpp"
@@ -30,7 +31,7 @@ class OrbitPiece {
   Positions straight() const { return make_surface_nodes(fibers_); }
 
   /// @param step  0: under error control
-  Positions run(const std::string& method, const double step, const double tolerance, const Positions& from,
+  Positions run(const TimeMethod method, const double step, const double tolerance, const Positions& from,
                 const double start, const double end) {
     scene_.time.method = method;
     scene_.time.step = step;
@@ -59,17 +60,17 @@ class OrbitPiece {
 };
 
 struct Method {
-  const char* name;
+  TimeMethod method;
   double order;
   double largest_step;  ///< of the steps tried, each half as large as the one before: time, or over 1 / spectral radius
   bool is_explicit;
 };
 
-constexpr Method methods[] = {{"euler", 1.0, 1.2, true},
-                              {"bs3", 3.0, 0.8, true},
-                              {"rk4", 4.0, 1.6, true},
-                              {"rkc2", 2.0, 0.01, false},
-                              {"trbdf2", 2.0, 0.01, false}};
+constexpr Method methods[] = {{TimeMethod::euler, 1.0, 1.2, true},
+                              {TimeMethod::bs3, 3.0, 0.8, true},
+                              {TimeMethod::rk4, 4.0, 1.6, true},
+                              {TimeMethod::rkc2, 2.0, 0.01, false},
+                              {TimeMethod::trbdf2, 2.0, 0.01, false}};
 
 int measure(const int nodes, const double start, const double end) {
   constexpr double solver_tolerance = 1e-11;  // of implicit stages at fixed steps
@@ -77,41 +78,42 @@ int measure(const int nodes, const double start, const double end) {
   OrbitPiece piece(nodes);
   // What RKC2 leaves in stiff modes dies out before the piece begins: it would count for a higher order.
   const double earlier = start - 0.05;
-  const Positions nearly = piece.run("rkc2", 0.0, 1e-6, piece.straight(), 0.0, earlier);
+  const Positions nearly = piece.run(TimeMethod::rkc2, 0.0, 1e-6, piece.straight(), 0.0, earlier);
   const double unit = 1.0 / piece.measure_spectral_radius(nearly);
-  const Positions from = piece.run("rk4", 0.3 * unit, solver_tolerance, nearly, earlier, start);
+  const Positions from = piece.run(TimeMethod::rk4, 0.3 * unit, solver_tolerance, nearly, earlier, start);
   const double duration = end - start;
   // Whole numbers of steps: a last one of another size would blur the order.
   const auto fit = [&](const double step) { return duration / std::ceil(duration / step); };
-  const Positions exact = piece.run("rk4", fit(0.1 * unit), solver_tolerance, from, start, end);
+  const Positions exact = piece.run(TimeMethod::rk4, fit(0.1 * unit), solver_tolerance, from, start, end);
   std::printf("%d nodes on a section, t = %g to %g, spectral radius %.4g\n", nodes, start, end, 1.0 / unit);
-  std::printf(
-      "the reference against half as many steps: %.2g L\n",
-      largest_distance(exact, piece.run("rk4", fit(0.2 * unit), solver_tolerance, from, start, end)) / piece.length());
+  std::printf("the reference against half as many steps: %.2g L\n",
+              largest_distance(exact, piece.run(TimeMethod::rk4, fit(0.2 * unit), solver_tolerance, from, start, end)) /
+                  piece.length());
   bool is_good = true;
   for (const Method& method : methods) {
+    const char* const name = word_of(method.method).c_str();
     double coarse_error = 0.0, order = 0.0, coarse_order = 0.0;
     double step = fit(method.largest_step * (method.is_explicit ? unit : 1.0));
     for (int halving = 0; halving < 3; ++halving, step *= 0.5) {
-      const Positions found = piece.run(method.name, step, solver_tolerance, from, start, end);
+      const Positions found = piece.run(method.method, step, solver_tolerance, from, start, end);
       const double error = largest_distance(found, exact) / piece.length();
       coarse_order = order;
       if (halving > 0) order = std::log2(coarse_error / error);
-      std::printf("%-7s step %.4e error %.4e L", method.name, step, error);
+      std::printf("%-7s step %.4e error %.4e L", name, step, error);
       std::printf(halving > 0 ? " order %.3f\n" : "\n", order);
       coarse_error = error;
     }
     const double limit = 2.0 * order - coarse_order;
     const bool is_right = std::abs(limit - method.order) <= largest_deviation;
-    std::printf("%-7s order %.3f in the limit, %s %g\n", method.name, limit, is_right ? "as it should:" : "NOT",
-                method.order);
+    std::printf("%-7s order %.3f in the limit, %s %g\n", name, limit, is_right ? "as it should:" : "NOT", method.order);
     is_good = is_good && is_right;
   }
   for (const Method& method : methods) {
-    if (std::string(method.name) == "euler") continue;  // it has no error control
+    const char* const name = word_of(method.method).c_str();
+    if (method.method == TimeMethod::euler) continue;  // it has no error control
     const double error =
-        largest_distance(piece.run(method.name, 0.0, tightest, from, start, end), exact) / piece.length();
-    std::printf("%-7s at a tolerance of %g: error %.3e L\n", method.name, tightest, error);
+        largest_distance(piece.run(method.method, 0.0, tightest, from, start, end), exact) / piece.length();
+    std::printf("%-7s at a tolerance of %g: error %.3e L\n", name, tightest, error);
     is_good = is_good && error < largest_controlled_error;
   }
   return is_good ? 0 : 1;

@@ -2,9 +2,11 @@
 // perf/stability_atlas.py. Arguments are key=value; fewer nodes on a section keep the bending stiffness.
 
 #include <skein/arrays/runtime.hpp>
+#include <skein/core/error.hpp>
 #include <skein/core/stopwatch.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
+#include <skein/scene/words.hpp>
 
 #include "perf/orbit_scene.hpp"
 
@@ -22,7 +24,8 @@ namespace skein::perf {
 namespace {
 
 struct Choice {
-  std::string method = "rkc2", output;
+  TimeMethod method = TimeMethod::rkc2;
+  std::string output;
   double tolerance = 1e-4, step = 0.0, max_step = 0.0, length = 0.139, end = 6.0, stiffness = 1.0, blob = 1.0,
          sample = 0.25;
   int nodes = 6, sections = 0;
@@ -42,7 +45,7 @@ Choice read_choice(const int argc, char** argv) {
     if (const auto number = numbers.find(key); number != numbers.end())
       *number->second = std::atof(value.c_str());
     else if (key == "method")
-      choice.method = value;
+      choice.method = words_of<TimeMethod>().value_of(value);
     else if (key == "output")
       choice.output = value;
     else if (key == "sections")
@@ -55,15 +58,6 @@ Choice read_choice(const int argc, char** argv) {
       std::fprintf(stderr, "unknown argument %s\n", argument.c_str()), std::exit(64);
   }
   return choice;
-}
-
-/// A scene's word for what an integrator calls itself.
-std::string key_of(const std::string& description) {
-  const std::pair<const char*, const char*> names[] = {
-      {"RKC2", "rkc2"}, {"TR-BDF2", "trbdf2"}, {"RK4", "rk4"}, {"Bogacki", "bs3"}, {"forward Euler", "euler"}};
-  for (const auto& [name, key] : names)
-    if (description.starts_with(name)) return key;
-  return "?";
 }
 
 SceneConfig make_scene(const Choice& choice) {
@@ -160,7 +154,7 @@ int run(const Choice& choice) {
   std::printf(
       "method=%s integrator=%s tolerance=%g nodes=%d sections=%d length=%.6g stiffness=%g t=%.6g evaluations=%lld "
       "steps=%lld rejected=%lld seconds=%.3f cpu=%.3f reported=%.4g mean_error=%.3g stages_per_step=%.3g speed=%.3g\n",
-      choice.method.c_str(), key_of(integrator->describe()).c_str(), choice.tolerance, choice.nodes,
+      word_of(choice.method).c_str(), word_of(integrator->method()).c_str(), choice.tolerance, choice.nodes,
       fibers[0].config.sections, length, choice.stiffness, state.time, static_cast<long long>(dynamics.evaluations()),
       static_cast<long long>(state.step), static_cast<long long>(tally.rejected), tally.seconds, tally.cpu_seconds,
       tally.local_error / length, tally.error / n_steps, static_cast<double>(tally.stages) / n_steps, speed);
@@ -172,5 +166,10 @@ int run(const Choice& choice) {
 
 int main(int argc, char** argv) {
   skein::Runtime runtime;
-  return skein::perf::run(skein::perf::read_choice(argc, argv));
+  try {
+    return skein::perf::run(skein::perf::read_choice(argc, argv));
+  } catch (const skein::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return static_cast<int>(error.code());
+  }
 }

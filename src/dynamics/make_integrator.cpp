@@ -26,15 +26,6 @@ Rkc2Options make_options(const SceneConfig& scene, const double length, const do
   return options;
 }
 
-std::unique_ptr<Integrator> make_controlled(const std::string& method, const Rkc2Options& options, RightHandSide& rhs,
-                                            const int n_nodes) {
-  if (method == "rk4") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
-  if (method == "bs3") return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
-  if (method == "trbdf2") return std::make_unique<TrBdf2>(rhs, options, n_nodes);
-  SKEIN_REQUIRE(method == "rkc2", "unknown integrator '" + method + "'");
-  return std::make_unique<Rkc2>(rhs, options, n_nodes);
-}
-
 // From the straight fibers of the start, also where a run goes on: the choice is the same then.
 MethodSelection select(const Rkc2Options& options, const std::vector<Fiber>& fibers, RightHandSide& rhs) {
   const Vectors position = to_device("skein::make_integrator::position", make_surface_nodes(fibers));
@@ -47,20 +38,37 @@ MethodSelection select(const Rkc2Options& options, const std::vector<Fiber>& fib
                        linearization == nullptr ? -1.0 : linearization->preconditioning_cost());
 }
 
+std::unique_ptr<Integrator> make_method(const TimeMethod method, const Rkc2Options& options,
+                                        const std::vector<Fiber>& fibers, RightHandSide& rhs) {
+  const int n_nodes = count_nodes(fibers);
+  switch (method) {
+    case TimeMethod::rkc2:
+      return std::make_unique<Rkc2>(rhs, options, n_nodes);
+    case TimeMethod::trbdf2:
+      return std::make_unique<TrBdf2>(rhs, options, n_nodes);
+    case TimeMethod::rk4:
+      return std::make_unique<ExplicitRungeKutta>(rhs, options, make_classical_runge_kutta(), n_nodes);
+    case TimeMethod::bs3:
+      return std::make_unique<ExplicitRungeKutta>(rhs, options, make_bogacki_shampine(), n_nodes);
+    case TimeMethod::euler:
+      return std::make_unique<Euler>(rhs, options.fixed_step, options.length_scale, n_nodes);
+    case TimeMethod::automatic: {
+      const MethodSelection selection = select(options, fibers, rhs);
+      return std::make_unique<SelectedIntegrator>(rhs, make_method(selection.method, options, fibers, rhs),
+                                                  selection.reason);
+    }
+  }
+  throw Error(ExitCode::internal, "make_method knows no such method of time integration");
+}
+
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(const SceneConfig& scene, const Physics& physics, RightHandSide& rhs) {
   const std::vector<Fiber>& fibers = physics.fibers;
-  const int n_nodes = count_nodes(fibers);
-  const double length = largest_length(fibers);
   double spacing = fibers.front().spacing();
   for (const Fiber& fiber : fibers) spacing = std::min(spacing, fiber.spacing());
-  if (scene.time.method == "euler") return std::make_unique<Euler>(rhs, scene.time.step, length, n_nodes);
-  const Rkc2Options options = make_options(scene, length, spacing, physics.time_scale());
-  if (scene.time.method != "auto") return make_controlled(scene.time.method, options, rhs, n_nodes);
-  const MethodSelection selection = select(options, fibers, rhs);
-  return std::make_unique<SelectedIntegrator>(rhs, make_controlled(selection.method, options, rhs, n_nodes),
-                                              selection.reason);
+  const Rkc2Options options = make_options(scene, largest_length(fibers), spacing, physics.time_scale());
+  return make_method(scene.time.method, options, fibers, rhs);
 }
 
 }  // namespace skein

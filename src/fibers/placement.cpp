@@ -71,9 +71,19 @@ class RandomPlace {
   CounterRandom random_;
 };
 
+bool draws_directions(const Orientation orientation) {
+  switch (orientation) {
+    case Orientation::as_written:
+      return false;
+    case Orientation::random:
+      return true;
+  }
+  throw Error(ExitCode::internal, "draws_directions knows no such orientation");
+}
+
 std::vector<FiberConfig> place_on_grid(const SceneConfig& scene) {
   const PlacementConfig& placement = scene.placement;
-  const bool turned = placement.orientation == "random";
+  const bool turned = draws_directions(placement.orientation);
   const Vec3 n = placement.grid;
   std::vector<FiberConfig> fibers;
   for (double k = 0.0; k < n.z; ++k)
@@ -110,7 +120,7 @@ bool find_place(const SceneConfig& scene, const std::vector<Capsule>& placed, Fi
   const RandomPlace place(scene, placed.size());
   for (int number = 0; number < n_tries_allowed; ++number) {
     fiber.config.center = place.center(number);
-    if (placement.orientation == "random") fiber.config.direction = place.direction(number);
+    if (draws_directions(placement.orientation)) fiber.config.direction = place.direction(number);
     const Capsule capsule = make_capsule(fiber);
     if (!is_inside(capsule, placement.center, placement.box)) continue;
     const bool is_free = std::all_of(placed.begin(), placed.end(), [&](const Capsule& other) {
@@ -145,13 +155,24 @@ double compute_distance(const Fiber& a, const Fiber& b, const std::uint64_t seed
   return smallest;
 }
 
+std::vector<FiberConfig> place(const SceneConfig& scene) {
+  switch (scene.placement.kind) {
+    case PlacementKind::as_written:
+      return scene.fibers;
+    case PlacementKind::grid:
+      return place_on_grid(scene);
+    case PlacementKind::random:
+      return place_randomly(scene);
+  }
+  throw Error(ExitCode::internal, "place knows no such kind of placement");
+}
+
 }  // namespace
 
 SceneConfig place_fibers(const SceneConfig& scene) {
   SceneConfig placed = scene;
-  if (scene.placement.kind == "grid") placed.fibers = place_on_grid(scene);
-  if (scene.placement.kind == "random") placed.fibers = place_randomly(scene);
-  placed.placement.kind = "as_written";
+  placed.fibers = place(scene);
+  placed.placement.kind = PlacementKind::as_written;
   return placed;
 }
 

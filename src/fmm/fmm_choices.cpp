@@ -31,7 +31,7 @@ void settle_plan(const FmmOptions& options, const BlobRange blobs, const double 
         ExitCode::scene_error,
         fmt::format("far_field = \"regularized\" needs one blob for all nodes, not {:g} .. {:g}: use \"harmonic\"",
                     blobs.smallest, blobs.largest));
-  if (options.precision == FmmPrecision::automatic)
+  if (options.precision == Precision::automatic)
     plan.near_in_single &= single_precision_error(blobs.smallest, largest_leaf) < options.tolerance;
 }
 

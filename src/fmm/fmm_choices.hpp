@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/core/error.hpp>
 #include <skein/core/stopwatch.hpp>
 #include <skein/fmm/fmm_plan.hpp>
 #include <skein/fmm/fmm_sum.hpp>
@@ -37,12 +38,18 @@ void settle_plan(const FmmOptions& options, BlobRange blobs, double largest_leaf
 /// use(field) with the far field of the options. @param blob  of all sources, where the far field depends on it
 template <class Use>
 void with_far_field(const FmmOptions& options, const double blob, const Use& use) {
-  if (options.far_field == FarField::harmonic)
-    use(HarmonicField{});
-  else if (options.far_field == FarField::stokeslet)
-    use(StokesletField{options.stokes_part_only});
-  else
-    use(RegularizedField{blob * blob});
+  switch (options.far_field) {
+    case FarField::harmonic:
+      use(HarmonicField{});
+      return;
+    case FarField::stokeslet:
+      use(StokesletField{options.stokes_part_only});
+      return;
+    case FarField::regularized:
+      use(RegularizedField{blob * blob});
+      return;
+  }
+  throw Error(ExitCode::internal, "with_far_field knows no such far field");
 }
 
 /// use(Near{}) with the precision of the near field: never single beside a far field in double.

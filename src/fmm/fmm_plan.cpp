@@ -53,17 +53,30 @@ double excess_of(const FmmTargets targets) { return targets == FmmTargets::apart
 
 /// Error between the nearest well-separated boxes over (eps / half-width)^4.
 double floor_factor(const FmmOptions& options) {
-  if (options.far_field == FarField::regularized) return 0.05;
-  if (options.far_field == FarField::stokeslet && !options.stokes_part_only) return 0.1;
-  return 0.011;
+  constexpr double with_doublet = 0.011;
+  switch (options.far_field) {
+    case FarField::harmonic:
+      return with_doublet;
+    case FarField::stokeslet:
+      return options.stokes_part_only ? with_doublet : 0.1;
+    case FarField::regularized:
+      return 0.05;
+  }
+  throw Error(ExitCode::internal, "floor_factor knows no such far field");
 }
 
 /// What single precision adds, and the smallest singular values it can tell from noise.
 constexpr double single_error = 9e-7, single_cutoff = 1e-8;
 
 Rows rows_of(const FarField far_field) {
-  if (far_field == FarField::harmonic) return harmonic_rows;
-  return stokeslet_rows;
+  switch (far_field) {
+    case FarField::harmonic:
+      return harmonic_rows;
+    case FarField::stokeslet:
+    case FarField::regularized:
+      return stokeslet_rows;
+  }
+  throw Error(ExitCode::internal, "rows_of knows no such far field");
 }
 
 /// The cheapest row that meets the tolerance, of this order or more.
@@ -83,12 +96,25 @@ double blob_share(const FmmOptions& options) {
 /// Of an order's error, that the transfers may lose by being taken apart.
 constexpr double transfer_share = 0.01;
 
+/// As plans are described.
+const char* name_of(const FarField far_field) {
+  switch (far_field) {
+    case FarField::harmonic:
+      return "harmonic";
+    case FarField::stokeslet:
+      return "Stokeslet";
+    case FarField::regularized:
+      return "regularized";
+  }
+  throw Error(ExitCode::internal, "name_of knows no such far field");
+}
+
 /// The best that a far field promises.
 double least_error(const FmmOptions& options) {
   const Rows rows = rows_of(options.far_field);
   const double error =
       std::min_element(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.error < b.error; })->error;
-  return options.precision == FmmPrecision::in_single ? std::max(error, single_error) : error;
+  return options.precision == Precision::in_single ? std::max(error, single_error) : error;
 }
 
 }  // namespace
@@ -159,8 +185,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const i
   FmmPlan plan;
   plan.order = row->order;
   plan.rank = row->rank;
-  plan.far_in_single = options.precision == FmmPrecision::in_single ||
-                       (options.precision == FmmPrecision::automatic &&
+  plan.far_in_single = options.precision == Precision::in_single ||
+                       (options.precision == Precision::automatic &&
                         // After misses, of which single precision may have been the cause, with a margin.
                         options.tolerance >= (1.0 + 9.0 * n_raises) * single_error);
   plan.near_in_single = plan.far_in_single;
@@ -188,12 +214,9 @@ FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const i
 }
 
 std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
-  const char* const field = options.far_field == FarField::harmonic    ? "harmonic"
-                            : options.far_field == FarField::stokeslet ? "Stokeslet"
-                                                                       : "regularized";
   std::string text =
-      fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf", field,
-                  plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
+      fmt::format("fast multipole method, {} far field of order {} in {} precision, about {} nodes a leaf",
+                  name_of(options.far_field), plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
   if (plan.min_half_width > 0.0)
     text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
   text += fmt::format(", error of at most {:.1g} expected", plan.expected_error);

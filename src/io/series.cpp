@@ -30,6 +30,18 @@ void link_moments(Hdf5Writer& file, const std::vector<Series::Element>& elements
     for (const char* name : {"/step", "/time"}) file.link(elements[0].group + name, elements[e].group + name);
 }
 
+Number number_of(const Precision precision) {
+  switch (precision) {
+    case Precision::in_double:
+      return Number::float64;
+    case Precision::in_single:
+      return Number::float32;
+    case Precision::automatic:
+      break;
+  }
+  throw Error(ExitCode::internal, "numbers in files are double or single: set output.precision to one of them");
+}
+
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
 std::span<const double> as_doubles(const std::vector<Vec3>& vectors) {
@@ -124,7 +136,7 @@ void Series::write_virtual(Hdf5Writer& file, const std::vector<Hdf5Writer::Sourc
 Series make_frame_series(const TrajectoryLayout& layout, const OutputConfig& output) {
   const auto n_nodes = static_cast<hsize_t>(count_nodes(layout.fibers));
   const auto n_sections = static_cast<hsize_t>(count_sections(layout.fibers));
-  const Number position = output.precision == "single" ? Number::float32 : Number::float64;
+  const Number position = number_of(output.precision);
   return {"frame",
           {{"/particles/fibers/position", position, {n_nodes, 3}, "length"},
            {"/observables/centreline", Number::float64, {n_sections, 3}, "length"},

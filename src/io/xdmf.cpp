@@ -29,7 +29,7 @@ std::string node_attribute(const char* name, const char* dataset, const int n_no
 }  // namespace
 
 XdmfText::XdmfText(const std::vector<Fiber>& fibers, const OutputConfig& output)
-    : n_nodes_(count_nodes(fibers)), float_bytes_(output.precision == "single" ? 4 : 8) {
+    : n_nodes_(count_nodes(fibers)), float_bytes_(bytes_per_number(output.precision)) {
   const std::size_t n_quads = make_surface_mesh(fibers).size();
   mesh_ = fmt::format(
       "<Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{0}\">"

@@ -9,10 +9,6 @@
 namespace skein {
 namespace {
 
-PairPrecision pair_precision(const Precision precision) {
-  return precision == Precision::in_double ? PairPrecision::in_double : PairPrecision::in_single;
-}
-
 /// True where each pair can be weighed once for both of its nodes: nodes that are sources and targets, with equal
 /// blobs. Looked up at every call: n comparisons beside n^2 pairs, and nothing to go stale when the caller changes an
 /// array.
@@ -25,7 +21,7 @@ PairPrecision pair_precision(const Precision precision) {
 /// Takes the symmetric sum where it is possible. A template, so that a GPU build compiles no call of the host's kernel.
 template <class Space>
 bool try_symmetric_sum(const Space& space, const Sources& sources, const ConstVectors& target, const Vectors& velocity,
-                       const double viscosity, const PairPrecision precision) {
+                       const double viscosity, const Precision precision) {
   if constexpr (on_host<Space>) {
     if (!is_symmetric(sources, target)) return false;
     add_symmetric_stokeslet_velocity(space, sources.position, sources.force, sources.blob, velocity, viscosity,
@@ -39,22 +35,28 @@ bool try_symmetric_sum(const Space& space, const Sources& sources, const ConstVe
 }  // namespace
 
 DirectMobility::DirectMobility(const double viscosity, const Precision precision)
-    : viscosity_(viscosity), precision_(precision) {
+    : viscosity_(viscosity), precision_(precision == Precision::automatic ? Precision::in_double : precision) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
 }
 
 void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   pairs_ += static_cast<double>(sources.position.extent(0)) * static_cast<double>(target.extent(0));
   const ExecSpace space;
-  const PairPrecision precision = pair_precision(precision_);
-  if (try_symmetric_sum(space, sources, target, velocity, viscosity_, precision)) return;
+  if (try_symmetric_sum(space, sources, target, velocity, viscosity_, precision_)) return;
   add_stokeslet_velocity<ExecSpace>(space, sources.position, sources.force, sources.blob, target, velocity, viscosity_,
-                                    precision);
+                                    precision_);
 }
 
 std::string DirectMobility::describe() const {
-  return precision_ == Precision::in_double ? "direct sum, pairs in double precision"
-                                            : "direct sum, pairs in single precision (about 1e-6)";
+  switch (precision_) {
+    case Precision::in_double:
+      return "direct sum, pairs in double precision";
+    case Precision::in_single:
+      return "direct sum, pairs in single precision (about 1e-6)";
+    case Precision::automatic:
+      break;
+  }
+  throw Error(ExitCode::internal, "a direct sum has no precision");
 }
 
 }  // namespace skein

@@ -45,10 +45,6 @@ double norm_at(const Vectors& velocity, const EvenSample& sample) {
   return std::sqrt(sum);
 }
 
-Precision precision_of_direct_sums(const FmmOptions& options) {
-  return options.precision == FmmPrecision::in_single ? Precision::in_single : Precision::in_double;
-}
-
 FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
   return are_same_nodes(sources.position, target) ? FmmTargets::at_sources : FmmTargets::apart;
 }
@@ -58,7 +54,7 @@ FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
 FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
     : viscosity_(viscosity),
       options_(options),
-      direct_(viscosity, precision_of_direct_sums(options)),
+      direct_(viscosity, options.precision),
       sum_(make_fmm_sum(options.path)) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
   if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);

@@ -1,3 +1,4 @@
+#include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/physics/mobility_choice.hpp>
 
@@ -20,16 +21,12 @@ constexpr double least_cells = 3.0;
 FmmOptions make_fmm_options(const HydrodynamicsConfig& config) {
   FmmOptions options;
   options.tolerance = config.tolerance;
-  options.far_field = config.far_field == "stokeslet"     ? FarField::stokeslet
-                      : config.far_field == "regularized" ? FarField::regularized
-                                                          : FarField::harmonic;
+  options.far_field = config.far_field;
   options.order = config.order;
   options.leaf_size = config.leaf_size;
-  options.precision = config.precision == "double"   ? FmmPrecision::in_double
-                      : config.precision == "single" ? FmmPrecision::in_single
-                                                     : FmmPrecision::automatic;
+  options.precision = config.precision;
   options.check_every = config.check_every;
-  options.on_miss = config.on_miss == "stop" ? OnMiss::stop : OnMiss::raise_order;
+  options.on_miss = config.on_miss;
   return options;
 }
 
@@ -72,16 +69,8 @@ std::string find_lack_of_far_field(const FmmOptions& options, const Size& size) 
       size.max_blob, options.tolerance, half_width, size.extent);
 }
 
-}  // namespace
-
-MobilityChoice choose_mobility(const SceneConfig& scene) {
-  const HydrodynamicsConfig& config = scene.hydrodynamics;
-  MobilityChoice choice;
-  choice.precision = config.precision == "single" ? Precision::in_single : Precision::in_double;
-  choice.fmm = make_fmm_options(config);
-  choice.is_direct = config.method == "direct";
-  if (config.method != "auto") return choice;
-
+/// Decides between the methods by the number of nodes and where they are.
+void choose_method(const SceneConfig& scene, MobilityChoice& choice) {
   choice.fmm.direct_when_cheaper = true;
   const Size size = measure_size(scene);
   choice.is_direct = true;
@@ -90,7 +79,7 @@ MobilityChoice choose_mobility(const SceneConfig& scene) {
                                 least_fmm_nodes);
   } else if (needs_direct_sum(choice.fmm)) {
     choice.reason = fmt::format("chosen because tolerance = {:g} is below what the fast multipole method promises",
-                                config.tolerance);
+                                choice.fmm.tolerance);
   } else if (const std::string lack = find_lack_of_far_field(choice.fmm, size);
              scene.fibers.size() == 1 && !lack.empty()) {
     choice.reason = "chosen because " + lack;
@@ -99,7 +88,26 @@ MobilityChoice choose_mobility(const SceneConfig& scene) {
     choice.reason =
         fmt::format("chosen for {:g} nodes; a direct sum wherever the tree shows that it costs less", size.n_nodes);
   }
-  return choice;
+}
+
+}  // namespace
+
+MobilityChoice choose_mobility(const SceneConfig& scene) {
+  MobilityChoice choice;
+  choice.precision = scene.hydrodynamics.precision;
+  choice.fmm = make_fmm_options(scene.hydrodynamics);
+  switch (scene.hydrodynamics.method) {
+    case SumMethod::automatic:
+      choose_method(scene, choice);
+      return choice;
+    case SumMethod::direct:
+      choice.is_direct = true;
+      return choice;
+    case SumMethod::fmm:
+      choice.is_direct = false;
+      return choice;
+  }
+  throw Error(ExitCode::internal, "choose_mobility knows no such method");
 }
 
 std::string describe_choice(const MobilityChoice& choice, const SceneConfig& scene) {
@@ -115,10 +123,11 @@ std::string describe_choice(const MobilityChoice& choice, const SceneConfig& sce
 
 std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene) {
   const HydrodynamicsConfig& config = scene.hydrodynamics;
-  if (config.method == "direct") return {};
+  if (config.method == SumMethod::direct) return {};
   const FmmOptions options = make_fmm_options(config);
   const Size size = measure_size(scene);
-  const bool falls_back = config.method == "auto" && config.precision != "single" && needs_direct_sum(options);
+  const bool falls_back =
+      config.method == SumMethod::automatic && config.precision != Precision::in_single && needs_direct_sum(options);
   std::vector<KeyProblem> problems;
   for (const OptionProblem& problem : find_fmm_problems(options))
     if (!(falls_back && problem.option == "tolerance"))
@@ -128,7 +137,7 @@ std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene) {
         {"hydrodynamics.far_field",
          "hydrodynamics.far_field = \"regularized\" needs one blob for all fibers; \"harmonic\" does not"});
   if (const std::string lack = find_lack_of_far_field(options, size);
-      config.method == "fmm" && problems.empty() && !lack.empty())
+      config.method == SumMethod::fmm && problems.empty() && !lack.empty())
     problems.push_back(
         {"hydrodynamics.tolerance", "hydrodynamics.tolerance: " + lack + "; raise it, or use method = \"direct\""});
   return problems;

@@ -18,22 +18,8 @@
 namespace skein {
 namespace {
 
-/// E at a point, by central differences over a distance in which a linear flow is exact.
-Matrix3 measure_strain_rate(const BackgroundFlow& flow, const double time, const Vec3 point, const double distance) {
-  std::vector<Vec3> around;
-  for (const double sign : {1.0, -1.0})
-    for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
-      around.push_back(point + sign * distance * axis);
-  const Vectors velocity("skein::measure_strain_rate", around.size());
-  flow.add_velocity(time, to_device("skein::measure_strain_rate::point", around), velocity);
-  const auto u = to_host(ConstVectors(velocity));
-  Matrix3 gradient{};
-  for (int j = 0; j < 3; ++j) {
-    const Vec3 column = (u[j] - u[j + 3]) / (2.0 * distance);
-    gradient[0][j] = column.x;
-    gradient[1][j] = column.y;
-    gradient[2][j] = column.z;
-  }
+/// E, the symmetric part of a velocity gradient.
+Matrix3 compute_strain_rate(const VelocityGradient& gradient) {
   Matrix3 strain{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) strain[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
@@ -78,8 +64,7 @@ class ForceProbe {
       record.power.drive = drive[i];
       record.stresslet = compute_stresslet(moments[i]);
       record.viscosity_contribution = compute_viscosity_contribution(
-          record.stresslet, measure_strain_rate(*physics_.flow, frame.time, middle, fiber.config.radius),
-          physics_.viscosity);
+          record.stresslet, compute_strain_rate(physics_.flow->gradient(frame.time, middle)), physics_.viscosity);
       records.push_back(record);
     }
     return records;

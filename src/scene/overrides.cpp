@@ -1,5 +1,6 @@
 #include "overrides.hpp"
 
+#include "repeatable_tables.hpp"
 #include "toml_parser.hpp"
 
 #include <fmt/format.h>
@@ -61,7 +62,13 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
-bool is_repeatable(const std::string& table) { return table == "fiber" || table == "flow"; }
+/// "fibers or flows"
+std::string list_repeatable_tables() {
+  std::vector<std::string> names;
+  for (const RepeatableTable& table : repeatable_tables()) names.push_back(table.name + "s");
+  std::sort(names.begin(), names.end());
+  return fmt::format("{}", fmt::join(names, " or "));
+}
 
 // "fiber[1]" -> "fiber" and 1
 std::optional<std::size_t> take_index(std::string& name) {
@@ -70,8 +77,9 @@ std::optional<std::size_t> take_index(std::string& name) {
   std::size_t index = 0;
   const char *first = name.data() + open + 1, *last = name.data() + name.size();
   const auto [end, error] = std::from_chars(first, last, index);
-  if (error != std::errc() || end + 1 != last || *end != ']' || !is_repeatable(name.substr(0, open))) {
-    throw OverrideError{"an index counts fibers or flows from 0, as in fiber[1].roll=30.0"};
+  if (error != std::errc() || end + 1 != last || *end != ']' ||
+      find_repeatable_table(name.substr(0, open)) == nullptr) {
+    throw OverrideError{fmt::format("an index counts {} from 0, as in fiber[1].roll=30.0", list_repeatable_tables())};
   }
   name.resize(open);
   return index;
@@ -87,7 +95,7 @@ Override parse_override(const std::string& text) {
   }
   parsed.instance = take_index(parsed.path.front());
   if (parsed.instance && parsed.path.size() < 2)
-    throw OverrideError{"name a key of the fiber, as in fiber[1].roll=30.0"};
+    throw OverrideError{fmt::format("name a key of the {}, as in fiber[1].roll=30.0", parsed.path.front())};
   parsed.value = parse_value(text.substr(equals + 1));
   return parsed;
 }
@@ -102,10 +110,31 @@ void set_child(SceneValue& table, const std::string& name, const SceneValue& val
   child->name = name;
 }
 
-std::vector<SceneValue*> find_instances(SceneValue& root, const std::string& name,
-                                        const std::optional<std::size_t> index) {
+SceneValue& find_or_add_table(SceneValue& root, const std::string& name, const Place& place) {
+  if (SceneValue* found = root.find(name)) {
+    if (found->kind != SceneValue::Kind::table) throw OverrideError{fmt::format("'{}' is no table", name)};
+    return *found;
+  }
+  SceneValue table;
+  set_places(table, place);
+  set_child(root, name, table);
+  return *root.find(name);
+}
+
+/// Makes the table where the scene has none and that stands for one.
+std::vector<SceneValue*> find_instances(SceneValue& root, const RepeatableTable& wanted,
+                                        const std::optional<std::size_t> index, const Place& place) {
+  const std::string& name = wanted.name;
+  if (wanted.when_absent == WhenAbsent::stands_for_one && root.find(name) == nullptr)
+    find_or_add_table(root, name, place);
   SceneValue* table = root.find(name);
-  if (table == nullptr) throw OverrideError{fmt::format("the scene has no {} to change", name)};
+  if (table == nullptr) {
+    std::string message = fmt::format("the scene has no {} to change", name);
+    if (index) message = fmt::format("there is no {}[{}]: ", name, *index) + message;
+    // A required table's absence is a problem of its own, which says the same.
+    if (wanted.when_absent == WhenAbsent::stands_for_none) message += fmt::format("; write [{}] in it first", name);
+    throw OverrideError{message};
+  }
   std::vector<SceneValue*> instances;
   if (table->kind == SceneValue::Kind::table) instances.push_back(table);
   if (table->is_list_of_tables()) {
@@ -119,24 +148,12 @@ std::vector<SceneValue*> find_instances(SceneValue& root, const std::string& nam
   return {instances[*index]};
 }
 
-SceneValue& find_or_add_table(SceneValue& root, const std::string& name, const Place& place) {
-  if (SceneValue* found = root.find(name)) {
-    if (found->kind != SceneValue::Kind::table) throw OverrideError{fmt::format("'{}' is no table", name)};
-    return *found;
-  }
-  SceneValue table;
-  set_places(table, place);
-  set_child(root, name, table);
-  return *root.find(name);
-}
-
 void apply(SceneValue& root, const Override& override, const Place& place) {
   const auto& path = override.path;
   if (path.size() == 1) {
     set_child(root, path[0], override.value);
-  } else if (is_repeatable(path[0])) {
-    if (path[0] == "flow" && root.find("flow") == nullptr) find_or_add_table(root, path[0], place);
-    for (SceneValue* instance : find_instances(root, path[0], override.instance))
+  } else if (const RepeatableTable* table = find_repeatable_table(path[0])) {
+    for (SceneValue* instance : find_instances(root, *table, override.instance, place))
       set_child(*instance, path[1], override.value);
   } else {
     set_child(find_or_add_table(root, path[0], place), path[1], override.value);

@@ -1,5 +1,7 @@
 #include "scene_checks.hpp"
 
+#include <skein/core/error.hpp>
+
 #include "scene_value.hpp"
 
 #include <fmt/format.h>
@@ -66,19 +68,29 @@ void check_placement(const PlacementConfig& placement, const SceneReader& reader
   if (n.x != std::floor(n.x) || n.y != std::floor(n.y) || n.z != std::floor(n.z))
     reader.add(problems, "placement.grid",
                fmt::format("placement.grid must be three whole numbers, not {}", format_vector(n)));
-  else if (placement.kind == "grid" && n.x * n.y * n.z > n_copies_allowed)
+  else if (placement.kind == PlacementKind::grid && n.x * n.y * n.z > n_copies_allowed)
     reader.add(problems, "placement.grid",
                fmt::format("placement.grid asks for {:g} fibers, more than {:g}", n.x * n.y * n.z, n_copies_allowed));
 }
 
+/// Fibers that a placement makes of all those in the list.
+double count_fibers(const SceneConfig& scene) {
+  const PlacementConfig& placement = scene.placement;
+  switch (placement.kind) {
+    case PlacementKind::as_written:
+      return static_cast<double>(scene.fibers.size());
+    case PlacementKind::grid:
+      return placement.grid.x * placement.grid.y * placement.grid.z;
+    case PlacementKind::random:
+      return placement.count;
+  }
+  throw Error(ExitCode::internal, "count_fibers knows no such kind of placement");
+}
+
 /// Copies that placement makes of the fiber at this place of the list.
 double count_copies(const SceneConfig& scene, const std::size_t fiber) {
-  const PlacementConfig& placement = scene.placement;
-  if (placement.kind == "as_written") return 1.0;
-  const double n_copies =
-      placement.kind == "random" ? placement.count : placement.grid.x * placement.grid.y * placement.grid.z;
   const double n_fibers = static_cast<double>(scene.fibers.size());
-  return std::max(0.0, std::ceil((n_copies - static_cast<double>(fiber)) / n_fibers));
+  return std::max(0.0, std::ceil((count_fibers(scene) - static_cast<double>(fiber)) / n_fibers));
 }
 
 void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
@@ -132,7 +144,7 @@ void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::v
 // What a key of fmm would change must not be passed over; the tolerance and the like have a meaning in every scene.
 void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneReader& reader,
                          std::vector<Problem>& problems) {
-  if (hydrodynamics.method != "direct") return;
+  if (hydrodynamics.method != SumMethod::direct) return;
   const auto reject = [&](const char* key, const int value) {
     if (value == 0) return;
     reader.add(
@@ -144,7 +156,7 @@ void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneRe
 }
 
 void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<Problem>& problems) {
-  if (time.method == "euler" && time.step == 0.0) {
+  if (time.method == TimeMethod::euler && time.step == 0.0) {
     reader.add(problems, "time.step", "time.step must be given and above 0: euler has no error control");
   }
   if (time.step > time.max_step) {

@@ -1,6 +1,7 @@
 #include <skein/scene/scene_file.hpp>
 
 #include "overrides.hpp"
+#include "repeatable_tables.hpp"
 #include "scene_checks.hpp"
 #include "scene_keys.hpp"
 #include "scene_reader.hpp"
@@ -52,8 +53,7 @@ SceneReading read_scene_text(const std::string& text, const std::string& name,
 
   SceneReading reading;
   SceneReader reader(root, source);
-  reading.config.flows.resize(reader.n_instances("flow"));
-  reading.config.fibers.resize(reader.n_instances("fiber"));
+  for (const RepeatableTable& table : repeatable_tables()) table.resize(reading.config, reader.n_instances(table.name));
   visit_keys(reader, reading.config);
   problems.insert(problems.end(), reader.problems().begin(), reader.problems().end());
   check_scene(reading.config, reader, problems, reading.warnings);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/scene/scene_config.hpp>
+#include <skein/scene/words.hpp>
 
 #include <cstdint>
 #include <string>
@@ -22,22 +23,17 @@ struct Key {
   std::string meaning;  ///< half a sentence, in lower case
 };
 
-/// One of the words that a key may be.
-struct Choice {
-  std::string word;
-  std::string meaning;
-};
-
 /// A table of the scene. The top of the file has an empty name.
 struct Table {
   std::string name;
   bool repeatable;  ///< [[name]], once per instance
   std::string meaning;
   std::size_t n_instances = 1;
+  bool is_absent_by_default = false;
 };
 
 /// Sees every key of a scene in order. What reads, writes and documents scenes are visitors, so that a key is declared
-/// once, in scene_keys.cpp.
+/// once, in scene_keys.cpp or, of a table of which there may be several, in repeatable_tables.cpp.
 class KeyVisitor {
  public:
   virtual ~KeyVisitor() = default;
@@ -45,11 +41,19 @@ class KeyVisitor {
   virtual void begin_table(const Table& table) = 0;
   virtual void end_table() = 0;
   virtual void text(const Key& key, std::string& value) = 0;
-  virtual void choice(const Key& key, const std::vector<Choice>& choices, std::string& value) = 0;
+  virtual void choice(const Key& key, const std::vector<Choice>& choices, std::size_t& chosen) = 0;
   virtual void integer(const Key& key, std::int64_t& value) = 0;
   virtual void number(const Key& key, double& value) = 0;
   virtual void vector(const Key& key, Vec3& value) = 0;
   virtual void profile(const Key& key, std::vector<ProfilePoint>& value) = 0;
+
+  /// The enumerator that a word stands for.
+  template <class Enum>
+  void choice(const Key& key, const Words<Enum>& words, Enum& value) {
+    std::size_t chosen = words.index_of(value);
+    choice(key, words.choices(), chosen);
+    value = words.value_at(chosen);
+  }
 
   /// Any other integer type; the key's range keeps the value inside it.
   template <class Integer>
@@ -60,14 +64,11 @@ class KeyVisitor {
   }
 };
 
-/// Shows the visitor every table and key of a scene, [fiber] and [flow] once per instance.
+/// Shows the visitor every table and key of a scene, repeatable tables once per instance.
 void visit_keys(KeyVisitor& visitor, SceneConfig& scene);
 
 /// "blob: what it means; unit; range; default", one line. `path` is the key's name with its table.
 std::string describe_key(const std::string& path, const Key& key, const std::string& default_value);
-
-/// `"a", "b" or "c"`.
-std::string list_choices(const std::vector<Choice>& choices);
 
 /// "[0.0, 1.0, 0.0]"
 std::string format_vector(const Vec3& vector);

@@ -36,7 +36,7 @@ class KeyOwners : public KeyVisitor {
   void begin_table(const Table& table) override { table_ = table.name; }
   void end_table() override {}
   void text(const Key& key, std::string&) override { compare(key); }
-  void choice(const Key& key, const std::vector<Choice>&, std::string&) override { compare(key); }
+  void choice(const Key& key, const std::vector<Choice>&, std::size_t&) override { compare(key); }
   void integer(const Key& key, std::int64_t&) override { compare(key); }
   void number(const Key& key, double&) override { compare(key); }
   void vector(const Key& key, Vec3&) override { compare(key); }
@@ -53,8 +53,7 @@ class KeyOwners : public KeyVisitor {
 
 std::vector<std::string> find_owners(const std::string& key) {
   KeyOwners visitor(key);
-  SceneConfig scene;
-  scene.fibers.resize(1);
+  SceneConfig scene = make_scene_with_every_table();
   visit_keys(visitor, scene);
   return visitor.owners;
 }
@@ -68,30 +67,29 @@ Origin SceneSource::locate(const Place& place) const {
 }
 
 SceneReader::SceneReader(const SceneValue& root, const SceneSource& source) : root_(root), source_(source) {
-  find_instances("flow", false);
-  find_instances("fiber", true);
+  for (const RepeatableTable& table : repeatable_tables()) find_instances(table);
 }
 
-void SceneReader::find_instances(const std::string& table, const bool required) {
-  std::vector<const SceneValue*>& found = instances_[table];
-  const SceneValue* value = root_.find(table);
+void SceneReader::find_instances(const RepeatableTable& table) {
+  std::vector<const SceneValue*>& found = instances_[table.name];
+  const SceneValue* value = root_.find(table.name);
   if (value == nullptr) {
-    if (required)
+    if (table.when_absent == WhenAbsent::is_an_error)
       problems_.push_back(
-          {source_.locate({1, 1}), fmt::format("the scene has no {0}: write at least [{0}]", table), ""});
+          {source_.locate({1, 1}), fmt::format("the scene has no {0}: write at least [{0}]", table.name), ""});
   } else if (value->kind == SceneValue::Kind::table) {
     found.push_back(value);
   } else if (!value->is_list_of_tables()) {
     problems_.push_back({source_.locate(value->place),
-                         fmt::format("{0} must be a table: write [{0}], or [[{0}]] for several", table), ""});
+                         fmt::format("{0} must be a table: write [{0}], or [[{0}]] for several", table.name), ""});
   } else if (value->children.size() > n_instances_allowed) {
-    problems_.push_back({source_.locate(value->place),
-                         fmt::format("{} {}s are more than {}", value->children.size(), table, n_instances_allowed),
-                         ""});
+    problems_.push_back(
+        {source_.locate(value->place),
+         fmt::format("{} {}s are more than {}", value->children.size(), table.name, n_instances_allowed), ""});
   } else {
     for (const SceneValue& child : value->children) found.push_back(&child);
   }
-  if (found.empty() && !required) found.push_back(nullptr);
+  if (found.empty() && table.when_absent == WhenAbsent::stands_for_one) found.push_back(nullptr);
 }
 
 std::string SceneReader::path_of(const std::string& table, const std::size_t instance) const {
@@ -126,8 +124,10 @@ void SceneReader::begin_table(const Table& table) {
 }
 
 void SceneReader::end_table() {
-  // A scene without fibers shows none to visitors.
-  if (!inside_table_ && instances_.at("fiber").empty()) root_known_.push_back("fiber");
+  if (!inside_table_) {
+    for (const auto& [name, found] : instances_)  // a table without instances is not shown to visitors
+      if (found.empty()) root_known_.push_back(name);
+  }
   const SceneValue* finished = inside_table_ ? table_ : &root_;
   if (finished != nullptr) {
     for (const SceneValue& child : finished->children) reject_unknown(child);
@@ -202,16 +202,17 @@ void SceneReader::text(const Key& key, std::string& value) {
   }
 }
 
-void SceneReader::choice(const Key& key, const std::vector<Choice>& choices, std::string& value) {
-  const SceneValue* given = find_value(key, format_text(value));
+void SceneReader::choice(const Key& key, const std::vector<Choice>& choices, std::size_t& chosen) {
+  const SceneValue* given = find_value(key, format_text(choices[chosen].word));
   if (given == nullptr) return;
   const std::string wanted = list_choices(choices);
   if (!check_kind(*given, given->kind == SceneValue::Kind::text, key, wanted.c_str())) return;
 
   std::vector<std::string> words;
   for (const Choice& choice : choices) words.push_back(choice.word);
-  if (std::find(words.begin(), words.end(), given->text) != words.end()) {
-    value = given->text;
+  const auto found = std::find(words.begin(), words.end(), given->text);
+  if (found != words.end()) {
+    chosen = static_cast<std::size_t>(found - words.begin());
     return;
   }
   const std::string nearest = find_nearest_name(given->text, words);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "repeatable_tables.hpp"
 #include "scene_keys.hpp"
 #include "scene_value.hpp"
 
@@ -31,13 +32,13 @@ class SceneReader : public KeyVisitor {
  public:
   SceneReader(const SceneValue& root, const SceneSource& source);
 
-  /// How many instances of a repeatable table, "fiber" or "flow", the scene must have when its keys are visited.
+  /// How many instances of a repeatable table the scene must have when its keys are visited.
   std::size_t n_instances(const std::string& table) const { return instances_.at(table).size(); }
 
   void begin_table(const Table& table) override;
   void end_table() override;
   void text(const Key& key, std::string& value) override;
-  void choice(const Key& key, const std::vector<Choice>& choices, std::string& value) override;
+  void choice(const Key& key, const std::vector<Choice>& choices, std::size_t& chosen) override;
   void integer(const Key& key, std::int64_t& value) override;
   void number(const Key& key, double& value) override;
   void vector(const Key& key, Vec3& value) override;
@@ -55,7 +56,7 @@ class SceneReader : public KeyVisitor {
   std::string path_of(const std::string& table, std::size_t instance) const;
 
  private:
-  void find_instances(const std::string& table, bool required);
+  void find_instances(const RepeatableTable& table);
   const SceneValue* find_table(const Table& table);
   const SceneValue* find_value(const Key& key, const std::string& default_value);
   bool check_kind(const SceneValue& value, bool fits, const Key& key, const char* wanted);

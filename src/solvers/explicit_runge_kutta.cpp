@@ -6,7 +6,8 @@
 namespace skein {
 
 RungeKuttaTableau make_bogacki_shampine() {
-  return {.name = "Bogacki-Shampine 3(2)",
+  return {.method = TimeMethod::bs3,
+          .name = "Bogacki-Shampine 3(2)",
           .estimate_order = 2.0,
           .node = {0.0, 1.0 / 2.0, 3.0 / 4.0},
           .matrix = {{}, {1.0 / 2.0}, {0.0, 3.0 / 4.0}},
@@ -15,7 +16,8 @@ RungeKuttaTableau make_bogacki_shampine() {
 }
 
 RungeKuttaTableau make_classical_runge_kutta() {
-  return {.name = "RK4",
+  return {.method = TimeMethod::rk4,
+          .name = "RK4",
           .estimate_order = 3.0,
           .node = {0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0},
           .matrix = {{}, {1.0 / 2.0}, {0.0, 1.0 / 2.0}, {0.0, 0.0, 1.0}},

@@ -40,7 +40,7 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
   const std::string stiffness = fmt::format(
       "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
       spectral_radius, spectral_radius * options.time_scale, dt, stages);
-  if (preconditioning < 0.0) return {"rkc2", stiffness + ", and there is no implicit method for this"};
+  if (preconditioning < 0.0) return {TimeMethod::rkc2, stiffness + ", and there is no implicit method for this"};
 
   const double implicit_dt =
       is_fixed ? options.fixed_step
@@ -50,7 +50,7 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
   const double work =
       evaluations + (evaluations + 1.0) * preconditioning + factorization / steps_between_factorizations;
   const double stabilized_rate = (stages + rkc2_radius_share) / dt, implicit_rate = work / implicit_dt;
-  return {implicit_rate < preference * stabilized_rate ? "trbdf2" : "rkc2",
+  return {implicit_rate < preference * stabilized_rate ? TimeMethod::trbdf2 : TimeMethod::rkc2,
           fmt::format("{}, {:.0f} per unit of time; one of {:.3g} takes TR-BDF2 the work of {:.0f}, {:.0f} per unit of "
                       "time",
                       stiffness, stabilized_rate, implicit_dt, work, implicit_rate)};

@@ -289,7 +289,7 @@ TEST(Buckling, ASimulatedFiberBucklesAtTheGrowthRateOfACompressedOne) {
   config.start_plane = 0.0;
   SceneConfig scene;
   scene.fluid.viscosity = viscosity;
-  scene.flows = {{.kind = "planar_extension", .rate = 1.25}};
+  scene.flows = {{.kind = FlowKind::planar_extension, .rate = 1.25}};
   scene.fibers = {config};
   Physics physics = test::make_direct_physics(scene);
   const auto& fibers = physics.fibers;

@@ -107,7 +107,7 @@ double nearest_boxes_error(const int order, const double blob_over_half_width, c
   options.singular_cutoff = cutoff;
   options.leaf_size = 1;
   options.min_half_width = half_width;
-  options.precision = FmmPrecision::in_double;
+  options.precision = Precision::in_double;
   const Result result = compare_with_direct(from, target, options);
   EXPECT_EQ(result.statistics.work.near_pairs, 0.0);
   EXPECT_EQ(result.statistics.work.far_pairs, 1.0);
@@ -248,7 +248,7 @@ void expect_no_silent_miss(const int n_cases, const std::uint64_t seed) {
     FmmOptions options;
     options.tolerance = random.log_uniform(1e-11, 1e-2);
     options.leaf_size = 1 + static_cast<int>(random.uniform(0.0, 60.0));
-    if (k % 5 == 0) options.precision = FmmPrecision::in_double;
+    if (k % 5 == 0) options.precision = Precision::in_double;
     try {
       const Result result = compare_with_direct(from, {}, options);
       EXPECT_LE(result.error, options.tolerance)
@@ -318,7 +318,7 @@ TEST(FmmOptionsCheck, RefusesWhatCannotBeDelivered) {
   }));
   EXPECT_TRUE(refused([](FmmOptions& o) { o.min_half_width = 0.002; })) << "below the floor law";
   EXPECT_TRUE(refused([](FmmOptions& o) {
-    o.precision = FmmPrecision::in_single;
+    o.precision = Precision::in_single;
     o.tolerance = 1e-8;
   }));
   EXPECT_TRUE(refused([](FmmOptions& o) { o.leaf_size = -1; }));

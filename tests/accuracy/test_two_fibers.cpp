@@ -37,7 +37,7 @@ const FiberConfig lower = make_config({0.012, -0.007, 0.0}, {1.0, -0.4, -0.5});
 /// Centrelines 0.016 apart in x, where the flow brings them together.
 const FiberConfig left = make_config({-0.008, 0.0, 0.001}, {0.0, 1.0, 0.2});
 const FiberConfig right = make_config({0.008, 0.001, 0.0}, {0.0, 0.3, 1.0});
-const FlowConfig compression{.kind = "planar_extension", .rate = 1.7};
+const FlowConfig compression{.kind = FlowKind::planar_extension, .rate = 1.7};
 
 struct SimulatedFibers {
   explicit SimulatedFibers(const std::vector<FiberConfig>& configs, const double step = 0.0,

@@ -5,6 +5,7 @@
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_log.hpp>
 #include <skein/io/trajectory_writer.hpp>
+#include <skein/scene/words.hpp>
 
 #include "tests/unit/synthetic_run.hpp"
 
@@ -23,7 +24,7 @@ int main(int argc, char** argv) {
   const int n_segments = arguments.size() > 3 ? std::stoi(arguments[3]) : 3;
   try {
     OutputConfig output;
-    output.precision = arguments[1];
+    output.precision = words_of_stored_precision().value_of(arguments[1]);
     const TrajectoryLayout layout = make_synthetic_layout();
     const RunFolder folder = RunFolder::create(arguments[0], layout.attributes.at("scene"), /*overwrite=*/true);
     RunLog log(folder.run_log());

@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 #include <skein/dynamics/make_integrator.hpp>
+#include <skein/scene/words.hpp>
 
 #include "tests/support/direct_physics.hpp"
 #include "tests/support/paper_fiber.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 /// A cheap fiber, its nodes moved at random by up to a third of the radius.
 struct RandomRun {
-  RandomRun(const char* method, const unsigned seed) {
+  RandomRun(const TimeMethod method, const unsigned seed) {
     std::mt19937_64 random(seed);
     const auto draw = [&](const double low, const double high) {
       return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1p-53);
@@ -31,7 +32,7 @@ struct RandomRun {
     scene.time.max_step = 10.0;
     scene.time.tolerance = std::pow(10.0, draw(-6.0, -0.5));
     // Some with a fixed step of any size; Euler always.
-    if (scene.time.method == "euler" || draw(0.0, 1.0) < 0.5) scene.time.step = std::pow(10.0, draw(-4.0, 1.0));
+    if (method == TimeMethod::euler || draw(0.0, 1.0) < 0.5) scene.time.step = std::pow(10.0, draw(-4.0, 1.0));
     physics = std::make_unique<Physics>(test::make_direct_physics(scene));
     dynamics = std::make_unique<FiberDynamics>(*physics);
     std::vector<Vec3> nodes = make_surface_nodes(physics->fibers);
@@ -48,7 +49,8 @@ struct RandomRun {
 
 TEST(PastLimits, EveryRunEndsFiniteOrSaysWhatFailed) {
   int n_failed = 0, n_done = 0;
-  for (const char* method : {"euler", "rk4", "bs3", "rkc2", "trbdf2", "auto"})
+  for (const TimeMethod method : {TimeMethod::euler, TimeMethod::rk4, TimeMethod::bs3, TimeMethod::rkc2,
+                                  TimeMethod::trbdf2, TimeMethod::automatic})
     for (unsigned seed = 0; seed < 17; ++seed) {
       RandomRun run(method, 100 + seed);
       std::vector<Vec3> last;
@@ -57,16 +59,16 @@ TEST(PastLimits, EveryRunEndsFiniteOrSaysWhatFailed) {
         for (int step = 0; step < 25; ++step) {
           last = to_host(ConstVectors(run.state.position));
           integrator->advance(run.state, 1e9);
-          EXPECT_TRUE(run.dynamics->find_fault(run.state.position).empty()) << method << ' ' << seed;
+          EXPECT_TRUE(run.dynamics->find_fault(run.state.position).empty()) << word_of(method) << ' ' << seed;
         }
         ++n_done;
       } catch (const Error& error) {
-        EXPECT_EQ(error.code(), ExitCode::numerical) << method << ' ' << seed << ": " << error.what();
+        EXPECT_EQ(error.code(), ExitCode::numerical) << word_of(method) << ' ' << seed << ": " << error.what();
         EXPECT_GT(std::string(error.what()).size(), 40u);
-        EXPECT_EQ(to_host(ConstVectors(run.state.position)), last) << method << ' ' << seed;
+        EXPECT_EQ(to_host(ConstVectors(run.state.position)), last) << word_of(method) << ' ' << seed;
         ++n_failed;
       }
-      EXPECT_LT(run.dynamics->evaluations(), 200000) << method << ' ' << seed;
+      EXPECT_LT(run.dynamics->evaluations(), 200000) << word_of(method) << ' ' << seed;
     }
   EXPECT_EQ(n_failed + n_done, 102);
   EXPECT_GT(n_failed, 20) << "limits were not passed";

@@ -24,7 +24,7 @@ std::uint64_t hash_of(const std::vector<Vec3>& velocity) {
 void print_hashes(const FmmPath path, const std::vector<reference::Cloud>& clouds, const int n_many) {
   for (const reference::Cloud cloud : clouds)
     for (const int n : {500, n_many})
-      for (const FmmPrecision precision : {FmmPrecision::in_double, FmmPrecision::in_single})
+      for (const Precision precision : {Precision::in_double, Precision::in_single})
         for (const FarField far_field : {FarField::harmonic, FarField::stokeslet}) {
           if (far_field == FarField::stokeslet && n > 500) continue;
           for (const double largest_blob : {1e-3, 1e-5}) {  // many blobs, and one

@@ -29,9 +29,9 @@ inline HostVectors make_host_vectors(const std::vector<Vec3>& list) {
 }
 
 /// `velocity` plus what `sum` adds to it. Team size 1 is the only one that every host has.
-inline std::vector<Vec3> add_velocity(const Sum sum, const PairPrecision precision,
-                                      const reference::PointForces& sources, const std::vector<Vec3>& target,
-                                      const std::vector<Vec3>& velocity, const int team_size = 1) {
+inline std::vector<Vec3> add_velocity(const Sum sum, const Precision precision, const reference::PointForces& sources,
+                                      const std::vector<Vec3>& target, const std::vector<Vec3>& velocity,
+                                      const int team_size = 1) {
   const HostSpace space;
   const HostVectors position = make_host_vectors(sources.position), force = make_host_vectors(sources.force),
                     result = make_host_vectors(velocity);
@@ -51,7 +51,7 @@ inline std::vector<Vec3> add_velocity(const Sum sum, const PairPrecision precisi
   return list;
 }
 
-inline std::vector<Vec3> compute_velocity(const Sum sum, const PairPrecision precision,
+inline std::vector<Vec3> compute_velocity(const Sum sum, const Precision precision,
                                           const reference::PointForces& sources, const std::vector<Vec3>& target) {
   return add_velocity(sum, precision, sources, target, std::vector<Vec3>(target.size()));
 }

@@ -2,8 +2,11 @@
 #include <skein/physics/background_flow.hpp>
 #include <skein/physics/linear_flow.hpp>
 #include <skein/physics/scene_flow.hpp>
+#include <skein/scene/scene_file.hpp>
+#include <skein/scene/words.hpp>
 
 #include "tests/reference/point_cloud.hpp"
+#include "tests/unit/error_code.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,49 +42,62 @@ std::vector<Vec3> added_by(const FlowConfig& flow, const double time = 3.7, cons
 }
 
 struct Formula {
-  const char* kind;
+  FlowKind kind;
   std::function<Vec3(double rate, double size, Vec3 d)> velocity;
 };
 
 /// Written again, with the stream function of the vortices differentiated by hand.
 const std::vector<Formula> formulas = {
-    {"shear",
+    {FlowKind::shear,
      [](const double r, double, const Vec3 d) {
        return Vec3{r * d.y, 0, 0};
      }},
-    {"planar_extension",
+    {FlowKind::planar_extension,
      [](const double r, double, const Vec3 d) {
        return Vec3{-r * d.x, r * d.y, 0};
      }},
-    {"uniaxial_extension",
+    {FlowKind::uniaxial_extension,
      [](const double r, double, const Vec3 d) {
        return Vec3{r * d.x, -r * d.y / 2, -r * d.z / 2};
      }},
-    {"rotation",
+    {FlowKind::rotation,
      [](const double r, double, const Vec3 d) {
        return cross({0, 0, r}, d);
      }},
-    {"poiseuille",
+    {FlowKind::poiseuille,
      [](const double r, const double h, const Vec3 d) {
        return Vec3{r * (h * h - d.y * d.y) / (2 * h), 0, 0};
      }},
-    {"vortices",
+    {FlowKind::vortices,
      [](const double r, const double side, const Vec3 d) {
        const double k = std::numbers::pi / side;
        return Vec3{r / k * std::sin(k * d.x) * std::cos(k * d.y), -r / k * std::cos(k * d.x) * std::sin(k * d.y), 0};
      }},
-    {"none", [](double, double, Vec3) { return Vec3{}; }},
+    {FlowKind::none, [](double, double, Vec3) { return Vec3{}; }},
 };
 
-FlowConfig make_config(const std::string& kind) {
+FlowConfig make_config(const FlowKind kind) {
   return {.kind = kind, .rate = -1.7, .center = {0.3, -0.2, 0.6}, .size = 0.45};
 }
 
 void expect_near(const Vec3 found, const Vec3 expected) { EXPECT_LT(norm(found - expected), 1e-14); }
 
+/// By central differences over a step, exact but for rounding and (step k)^2 / 6.
+VelocityGradient measure_gradient(const BackgroundFlow& flow, const double time, const Vec3 position) {
+  constexpr double step = 1e-5;
+  VelocityGradient gradient{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Vec3 shift{j == 0 ? step : 0, j == 1 ? step : 0, j == 2 ? step : 0};
+    const auto u = added_by(flow, time, {position + shift, position - shift});
+    const Vec3 slope = (u[0] - u[1]) / (2 * step);
+    gradient[0][j] = slope.x, gradient[1][j] = slope.y, gradient[2][j] = slope.z;
+  }
+  return gradient;
+}
+
 TEST(BackgroundFlow, EveryKindFollowsItsFormula) {
   for (const Formula& formula : formulas) {
-    SCOPED_TRACE(formula.kind);
+    SCOPED_TRACE(word_of(formula.kind));
     const FlowConfig config = make_config(formula.kind);
     const auto added = added_by(config);
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -101,7 +117,7 @@ TEST(BackgroundFlow, NoKindHasADivergence) {
       const auto u = added_by(config, 0.0, ahead), v = added_by(config, 0.0, behind);
       for (std::size_t i = 0; i < positions.size(); ++i) divergence[i] += dot(u[i] - v[i], shift) / (2 * step * step);
     }
-    for (const double value : divergence) EXPECT_NEAR(value, 0.0, 2e-9) << formula.kind;
+    for (const double value : divergence) EXPECT_NEAR(value, 0.0, 2e-9) << word_of(formula.kind);
   }
 }
 
@@ -122,7 +138,7 @@ TEST(BackgroundFlow, ASumIsTheSumOfItsParts) {
 }
 
 TEST(BackgroundFlow, RatesOscillateRiseAndFall) {
-  FlowConfig flow = make_config("shear");
+  FlowConfig flow = make_config(FlowKind::shear);
   EXPECT_EQ(compute_rate(flow, 100.0), -1.7);
 
   flow.angular_frequency = 3.0;
@@ -133,7 +149,7 @@ TEST(BackgroundFlow, RatesOscillateRiseAndFall) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     expect_near(added[i], {-1.7 * std::cos(8.7 + std::numbers::pi / 6) * (positions[i].y + 0.2), 0, 0});
 
-  flow = make_config("shear");
+  flow = make_config(FlowKind::shear);
   flow.start = 1.0;
   flow.stop = 5.0;
   EXPECT_EQ(compute_rate(flow, 0.99), 0.0);
@@ -148,7 +164,7 @@ TEST(BackgroundFlow, RatesOscillateRiseAndFall) {
 }
 
 TEST(BackgroundFlow, ScalesAreThoseOfWhatMovesAndWhatChanges) {
-  FlowConfig shear = make_config("shear"), rotation = make_config("rotation");
+  FlowConfig shear = make_config(FlowKind::shear), rotation = make_config(FlowKind::rotation);
   rotation.rate = 0.3;
   EXPECT_NEAR(make_background_flow({shear, rotation})->typical_rate(), 1.7, 1e-15);  // a rotation deforms nothing
   EXPECT_NEAR(make_background_flow({shear, rotation})->time_scale(), 0.5, 1e-15);
@@ -156,35 +172,28 @@ TEST(BackgroundFlow, ScalesAreThoseOfWhatMovesAndWhatChanges) {
   EXPECT_EQ(make_background_flow({shear, rotation})->time_scale(), 0.125);
   rotation.ramp = 0.1;
   EXPECT_NEAR(make_background_flow({shear, rotation})->time_scale(), 0.1, 1e-15);
-  EXPECT_EQ(make_background_flow({make_config("none")})->typical_rate(), 0.0);
-  EXPECT_TRUE(std::isinf(make_background_flow({make_config("none")})->time_scale()));
+  EXPECT_EQ(make_background_flow({make_config(FlowKind::none)})->typical_rate(), 0.0);
+  EXPECT_TRUE(std::isinf(make_background_flow({make_config(FlowKind::none)})->time_scale()));
 }
 
 TEST(BackgroundFlow, TypicalRateIsTheLargestRateOfDeformation) {
-  constexpr double step = 1e-5;
   const auto corner = [](const FlowConfig& flow) {  // where the flow is strongest
-    return flow.center + Vec3{0, flow.kind == "poiseuille" ? flow.size : 0.0, 0};
+    return flow.center + Vec3{0, flow.kind == FlowKind::poiseuille ? flow.size : 0.0, 0};
   };
   for (const Formula& formula : formulas) {
     const FlowConfig config = make_config(formula.kind);
-    double gradient[3][3];
-    for (int j = 0; j < 3; ++j) {
-      const Vec3 shift{j == 0 ? step : 0, j == 1 ? step : 0, j == 2 ? step : 0};
-      const auto u = added_by(config, 0.0, {corner(config) + shift, corner(config) - shift});
-      const Vec3 slope = (u[0] - u[1]) / (2 * step);
-      gradient[0][j] = slope.x, gradient[1][j] = slope.y, gradient[2][j] = slope.z;
-    }
+    const auto gradient = measure_gradient(*make_background_flow({config}), 0.0, corner(config));
     double sum = 0.0;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) sum += std::pow(gradient[i][j] + gradient[j][i], 2) / 2;
-    EXPECT_NEAR(make_background_flow({config})->typical_rate(), std::sqrt(sum), 1e-6) << formula.kind;
+    EXPECT_NEAR(make_background_flow({config})->typical_rate(), std::sqrt(sum), 1e-6) << word_of(formula.kind);
   }
 }
 
 TEST(BackgroundFlow, IsDescribedInOneLine) {
   EXPECT_EQ(make_background_flow({FlowConfig{}})->describe(), "shear (2.5 y, 0, 0)");
-  EXPECT_EQ(make_background_flow({make_config("none")})->describe(), "fluid at rest");
-  FlowConfig flow = make_config("planar_extension");
+  EXPECT_EQ(make_background_flow({make_config(FlowKind::none)})->describe(), "fluid at rest");
+  FlowConfig flow = make_config(FlowKind::planar_extension);
   flow.angular_frequency = 3.0;
   flow.phase = -90.0;
   EXPECT_EQ(make_background_flow({flow})->describe(),
@@ -193,13 +202,41 @@ TEST(BackgroundFlow, IsDescribedInOneLine) {
 
 TEST(BackgroundFlow, UnknownKindNamesTheKnownOnes) {
   try {
-    make_background_flow({{.kind = "vortex", .rate = 1.0}});
+    read_scene_text("[fiber]\n[flow]\nkind = \"vortex\"\n", "scene.toml", {});
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::scene_error);
     EXPECT_NE(std::string(error.what()).find("vortex"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("shear"), std::string::npos);
   }
+}
+
+TEST(BackgroundFlow, AKindWithoutARowIsNotTakenForAnother) {
+  const FlowConfig flow{.kind = static_cast<FlowKind>(99), .rate = 1.0};
+  EXPECT_EQ(code_of([&] { make_background_flow({flow}); }), ExitCode::internal);
+}
+
+void expect_gradient_of_differences(const BackgroundFlow& flow, const double time) {
+  for (std::size_t p = 0; p < positions.size(); p += 4) {
+    const VelocityGradient found = flow.gradient(time, positions[p]);
+    const VelocityGradient expected = measure_gradient(flow, time, positions[p]);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(found[i][j], expected[i][j], 1e-8) << i << j;
+  }
+}
+
+TEST(BackgroundFlow, TheGradientOfEveryKindIsThatOfItsVelocity) {
+  std::vector<FlowConfig> all;
+  for (const Formula& formula : formulas) {
+    SCOPED_TRACE(word_of(formula.kind));
+    FlowConfig config = make_config(formula.kind);
+    config.angular_frequency = 2.0;
+    all.push_back(config);
+    expect_gradient_of_differences(*make_background_flow({config}), 0.3);
+  }
+  expect_gradient_of_differences(*make_background_flow(all), 0.3);
+  expect_gradient_of_differences(
+      LinearFlow({{{1.5, -2.0, 0.5}, {3.0, -4.0, 0.25}, {7.0, 0.75, 2.5}}}, {1.0, 2.0, -1.0}), 0.0);
 }
 
 TEST(LinearFlow, EveryEntryOfTheGradientAndTheOriginCount) {

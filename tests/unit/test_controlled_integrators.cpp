@@ -1,6 +1,7 @@
 // What every method with error control promises, against equations whose solutions are known.
 
 #include <skein/core/error.hpp>
+#include <skein/scene/words.hpp>
 #include <skein/solvers/explicit_runge_kutta.hpp>
 #include <skein/solvers/tr_bdf2.hpp>
 
@@ -72,6 +73,12 @@ TEST_P(Controlled, HasItsOrder) {
     const double fine = error_at_fixed_step(method, one, 0.01, end);
     EXPECT_NEAR(std::log2(coarse / fine), method.order, 0.2) << one.name << ": " << coarse << ", " << fine;
   }
+}
+
+TEST_P(Controlled, SaysWhatScenesCallIt) {
+  const Case one = make_cases().front();
+  DecayingRightHandSide rhs(one.problem.velocity, one.rate);
+  EXPECT_EQ(word_of(GetParam().make(rhs, make_options())->method()), GetParam().name);
 }
 
 struct Outcome {

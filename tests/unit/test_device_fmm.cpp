@@ -40,7 +40,7 @@ FmmOptions options_for(const FarField far_field) {
   options.path = FmmPath::device;
   options.order = far_field == FarField::harmonic ? 6 : 4;
   options.tolerance = far_field == FarField::harmonic ? 1e-3 : 1.0;
-  options.precision = FmmPrecision::in_double;
+  options.precision = Precision::in_double;
   options.leaf_size = 12;
   options.min_half_width = 0.004;
   return options;
@@ -149,7 +149,7 @@ TEST(DeviceFmm, AgreesForTargetsApartAndManyBlobs) {
 }
 
 TEST(DeviceFmm, AgreesInSinglePrecision) {
-  for (const FmmPrecision precision : {FmmPrecision::in_single, FmmPrecision::automatic})
+  for (const Precision precision : {Precision::in_single, Precision::automatic})
     // With blobs far below the leaves `automatic` sums the near field in double, the far field in single precision.
     for (const double blob : {2e-3, 1e-6}) {
       FmmOptions options = options_for(FarField::harmonic);
@@ -177,7 +177,7 @@ bool are_bitwise_equal(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 TEST(DeviceFmm, TeamsAndRepetitionsChangeNoBit) {
   for (const FarField far_field : {FarField::harmonic, FarField::stokeslet})
-    for (const FmmPrecision precision : {FmmPrecision::in_double, FmmPrecision::in_single}) {
+    for (const Precision precision : {Precision::in_double, Precision::in_single}) {
       FmmOptions options = options_for(far_field);
       options.precision = precision;
       options.order = 4;

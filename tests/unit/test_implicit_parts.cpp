@@ -228,9 +228,9 @@ ControlOptions make_options(const double tolerance) {
 
 TEST(MethodSelection, FollowsTheStiffness) {
   const ControlOptions options = make_options(1e-3);
-  EXPECT_EQ(select_method(options, 1e2, 60.0, 0.5).method, "rkc2");
-  EXPECT_EQ(select_method(options, 1e6, 60.0, 0.5).method, "trbdf2");
-  EXPECT_EQ(select_method(options, 1e6, 0.0, -1.0).method, "rkc2");  // nothing implicit to choose
+  EXPECT_EQ(select_method(options, 1e2, 60.0, 0.5).method, TimeMethod::rkc2);
+  EXPECT_EQ(select_method(options, 1e6, 60.0, 0.5).method, TimeMethod::trbdf2);
+  EXPECT_EQ(select_method(options, 1e6, 0.0, -1.0).method, TimeMethod::rkc2);  // nothing implicit to choose
   EXPECT_NE(select_method(options, 1e6, 60.0, 0.5).reason.find("1e+06"), std::string::npos);
 }
 
@@ -239,15 +239,20 @@ TEST(MethodSelection, AgreesWithWhatWasMeasured) {
   struct Row {
     double length, spacing, spectral_radius, tolerance;
     double factorization, preconditioning;  // in evaluations
-    const char* method;
+    TimeMethod method;
   };
   const double s6 = 0.005, s18 = 0.00173648;
-  const Row rows[] = {{0.14, s6, 1509.0, 1e-4, 59.0, 2.1, "rkc2"},     {0.14, s6, 1509.0, 1e-6, 59.0, 2.1, "rkc2"},
-                      {0.195, s6, 1509.0, 1e-2, 43.0, 1.5, "rkc2"},    {0.195, s6, 1509.0, 1e-6, 43.0, 1.5, "rkc2"},
-                      {0.14, s6, 1.5e5, 1e-2, 59.0, 2.1, "trbdf2"},    {0.14, s6, 1.5e5, 1e-6, 59.0, 2.1, "trbdf2"},
-                      {0.139, s18, 10935.0, 1e-2, 62.0, 0.73, "rkc2"}, {0.139, s18, 1.1e5, 1e-3, 62.0, 0.73, "trbdf2"},
-                      {0.139, s18, 1.1e5, 1e-5, 62.0, 0.73, "trbdf2"}, {0.139, s18, 1.1e6, 1e-2, 62.0, 0.73, "trbdf2"},
-                      {0.139, s18, 1.1e6, 1e-5, 62.0, 0.73, "trbdf2"}};
+  const Row rows[] = {{0.14, s6, 1509.0, 1e-4, 59.0, 2.1, TimeMethod::rkc2},
+                      {0.14, s6, 1509.0, 1e-6, 59.0, 2.1, TimeMethod::rkc2},
+                      {0.195, s6, 1509.0, 1e-2, 43.0, 1.5, TimeMethod::rkc2},
+                      {0.195, s6, 1509.0, 1e-6, 43.0, 1.5, TimeMethod::rkc2},
+                      {0.14, s6, 1.5e5, 1e-2, 59.0, 2.1, TimeMethod::trbdf2},
+                      {0.14, s6, 1.5e5, 1e-6, 59.0, 2.1, TimeMethod::trbdf2},
+                      {0.139, s18, 10935.0, 1e-2, 62.0, 0.73, TimeMethod::rkc2},
+                      {0.139, s18, 1.1e5, 1e-3, 62.0, 0.73, TimeMethod::trbdf2},
+                      {0.139, s18, 1.1e5, 1e-5, 62.0, 0.73, TimeMethod::trbdf2},
+                      {0.139, s18, 1.1e6, 1e-2, 62.0, 0.73, TimeMethod::trbdf2},
+                      {0.139, s18, 1.1e6, 1e-5, 62.0, 0.73, TimeMethod::trbdf2}};
   for (const Row& row : rows) {
     ControlOptions options = make_options(row.tolerance);
     options.length_scale = row.length;

@@ -13,7 +13,7 @@
 namespace skein {
 namespace {
 
-SceneConfig make_scene(const std::string& kind) {
+SceneConfig make_scene(const PlacementKind kind) {
   SceneConfig scene;
   scene.seed = 4;
   scene.fibers.resize(1);
@@ -51,19 +51,19 @@ TEST(SegmentDistance, IsTheSmallestOverAllPairsOfPoints) {
 }
 
 TEST(Placement, AsWrittenChangesNothing) {
-  const SceneConfig scene = make_scene("as_written");
+  const SceneConfig scene = make_scene(PlacementKind::as_written);
   EXPECT_EQ(place_fibers(scene).fibers.size(), 1u);
 }
 
 TEST(Placement, AGridIsCentredAndTakesTheFibersInTurn) {
-  SceneConfig scene = make_scene("grid");
+  SceneConfig scene = make_scene(PlacementKind::grid);
   scene.fibers.resize(2);
   scene.fibers[1].sections = 30;
   scene.placement.grid = {3, 2, 1};
   scene.placement.spacing = {0.5, 0.25, 7.0};
   scene.placement.center = {1.0, 2.0, 3.0};
   const SceneConfig placed = place_fibers(scene);
-  EXPECT_EQ(placed.placement.kind, "as_written");
+  EXPECT_EQ(placed.placement.kind, PlacementKind::as_written);
   ASSERT_EQ(placed.fibers.size(), 6u);
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(placed.fibers[i].center, (Vec3{0.5 + 0.5 * (i % 3), i < 3 ? 1.875 : 2.125, 3.0})) << i;
@@ -73,12 +73,12 @@ TEST(Placement, AGridIsCentredAndTakesTheFibersInTurn) {
 }
 
 TEST(Placement, RandomFibersAreInTheBoxAndDoNotTouch) {
-  SceneConfig scene = make_scene("random");
+  SceneConfig scene = make_scene(PlacementKind::random);
   scene.placement.count = 24;
   scene.placement.box = {0.08, 0.1, 0.07};
   scene.placement.center = {1.0, -1.0, 0.5};
   scene.placement.gap = 0.003;
-  scene.placement.orientation = "random";
+  scene.placement.orientation = Orientation::random;
   const SceneConfig placed = place_fibers(scene);
   ASSERT_EQ(placed.fibers.size(), 24u);
   const auto fibers = make_fibers(placed.fibers);
@@ -103,7 +103,7 @@ TEST(Placement, RandomFibersAreInTheBoxAndDoNotTouch) {
 }
 
 TEST(Placement, FollowsFromTheSeed) {
-  SceneConfig scene = make_scene("random");
+  SceneConfig scene = make_scene(PlacementKind::random);
   const auto centers = [&scene] {
     std::vector<Vec3> list;
     for (const FiberConfig& fiber : place_fibers(scene).fibers) list.push_back(fiber.center);
@@ -119,7 +119,7 @@ TEST(Placement, FollowsFromTheSeed) {
 }
 
 TEST(Placement, AFullBoxIsAnErrorWithNumbers) {
-  SceneConfig scene = make_scene("random");
+  SceneConfig scene = make_scene(PlacementKind::random);
   scene.placement.box = {0.05, 0.05, 0.05};
   scene.placement.count = 200;
   const std::string crowded = error_of([&] { place_fibers(scene); });

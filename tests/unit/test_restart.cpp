@@ -129,7 +129,7 @@ TEST(Restart, OfRkc2WithAFixedStepIsExactAtEveryStep) {
 TEST(Restart, OfEulerIsExactAtEveryStep) {
   expect_exact_restarts(make_scene(1,
                                    [](TimeConfig& time) {
-                                     time.method = "euler";
+                                     time.method = TimeMethod::euler;
                                      time.step = 1.1e-4;
                                      time.end = 0.011;
                                    }),
@@ -149,11 +149,12 @@ TEST(Restart, OfTheFastMultipoleMethodIsExactAtEveryStep) {
 
 TEST(Restart, OfEveryOtherMethodIsExactAtEveryStep) {
   for (const int n_fibers : {1, 2})
-    for (const char* method : {"rk4", "bs3", "trbdf2", "auto"})
+    for (const TimeMethod method : {TimeMethod::rk4, TimeMethod::bs3, TimeMethod::trbdf2, TimeMethod::automatic})
       expect_exact_restarts(make_scene(n_fibers,
                                        [&](TimeConfig& time) {
                                          time.method = method;
-                                         const bool is_explicit = time.method == "rk4" || time.method == "bs3";
+                                         const bool is_explicit =
+                                             method == TimeMethod::rk4 || method == TimeMethod::bs3;
                                          time.end = is_explicit ? 0.03 : 0.8;
                                          time.max_step = is_explicit ? 4e-4 : 0.02;
                                        }),
@@ -161,7 +162,7 @@ TEST(Restart, OfEveryOtherMethodIsExactAtEveryStep) {
 }
 
 TEST(Restart, OfFibersThatRepelEachOtherIsExactAtEveryStep) {
-  for (const char* method : {"rkc2", "trbdf2"}) {
+  for (const TimeMethod method : {TimeMethod::rkc2, TimeMethod::trbdf2}) {
     SceneConfig scene =
         make_scene(3, [&](TimeConfig& time) { time.method = method, time.end = 0.6, time.max_step = 0.02; });
     scene.repulsion = {1.9, 0.02};
@@ -201,9 +202,9 @@ class InterruptedDynamics final : public RightHandSide {
 TEST(Restart, OfAStepThatWasGivenUpIsExact) {
   const SceneConfig scenes[] = {
       make_scene(1, [](TimeConfig& time) { time.end = 1.0, time.max_step = 0.02; }),
-      make_scene(1, [](TimeConfig& time) { time.method = "trbdf2", time.end = 1.0, time.max_step = 0.02; }),
-      make_scene(1, [](TimeConfig& time) { time.method = "bs3", time.end = 0.1, time.max_step = 0.001; }),
-      make_scene(1, [](TimeConfig& time) { time.method = "euler", time.step = 1e-4, time.end = 0.01; })};
+      make_scene(1, [](TimeConfig& time) { time.method = TimeMethod::trbdf2, time.end = 1.0, time.max_step = 0.02; }),
+      make_scene(1, [](TimeConfig& time) { time.method = TimeMethod::bs3, time.end = 0.1, time.max_step = 0.001; }),
+      make_scene(1, [](TimeConfig& time) { time.method = TimeMethod::euler, time.step = 1e-4, time.end = 0.01; })};
   FmmOptions options = make_options_that_miss();
   options.check_every = 41;
   const std::pair<const SceneConfig&, const FmmOptions*> cases[] = {

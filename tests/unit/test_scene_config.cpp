@@ -1,6 +1,7 @@
 #include <skein/scene/nearest_name.hpp>
 #include <skein/scene/scene_file.hpp>
 #include <skein/scene/scene_reference.hpp>
+#include <skein/scene/words.hpp>
 
 #include <gtest/gtest.h>
 
@@ -33,8 +34,9 @@ SceneConfig make_unusual_scene() {
   scene.title = "quotes \" and \\, a tab\t, a line\nand \xc3\xa9";
   scene.seed = 9223372036854775807u;
   scene.fluid.viscosity = 1.0 / 3.0;
-  scene.flows = {{"vortices", -1e-7 / 7.0, {1.0 / 3.0, -2.0, 1e-9}, 0.7 / 3.0, -1.0 / 7.0, 33.3, 1.0 / 9.0, 2.2, 1e-3},
-                 {.kind = "none", .rate = 0.1}};
+  scene.flows = {
+      {FlowKind::vortices, -1e-7 / 7.0, {1.0 / 3.0, -2.0, 1e-9}, 0.7 / 3.0, -1.0 / 7.0, 33.3, 1.0 / 9.0, 2.2, 1e-3},
+      {.kind = FlowKind::none, .rate = 0.1}};
   scene.fibers.resize(2);
   scene.fibers[0] = {113, 9, 0.1 + 0.2, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0}, {0.0, 2.0, -1e-3 / 9.0}, -33.3};
   scene.fibers[1].blob = 5e-3 / 1.7;
@@ -47,12 +49,13 @@ SceneConfig make_unusual_scene() {
   scene.fibers[1].stiffness_between_sections = 7.0 / 3.0;
   scene.fibers[1].reach_along = 3;
   scene.fibers[1].reach_around = 4;
-  scene.placement = {"grid", {0.1, 1.0 / 3.0, -7.0}, {2.0, 3.0, 4.0}, {0.3, 1.0 / 7.0, 2.0},
-                     7,      {3.0, 4.0, 1.0 / 3.0},  1e-3 / 3.0,      "random"};
+  scene.placement = {
+      PlacementKind::grid, {0.1, 1.0 / 3.0, -7.0}, {2.0, 3.0, 4.0}, {0.3, 1.0 / 7.0, 2.0}, 7, {3.0, 4.0, 1.0 / 3.0},
+      1e-3 / 3.0,          Orientation::random};
   scene.repulsion = {7.0 / 3.0, 1e-3 / 7.0};
-  scene.hydrodynamics.precision = "single";
-  scene.time = {"euler", 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0};
-  scene.output = {1.0 / 30.0, "single"};
+  scene.hydrodynamics.precision = Precision::in_single;
+  scene.time = {TimeMethod::euler, 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0};
+  scene.output = {1.0 / 30.0, Precision::in_single};
   return scene;
 }
 
@@ -127,7 +130,7 @@ TEST(SceneFile, TakesEveryKind) {
   EXPECT_EQ(scene.seed, 7u);
   EXPECT_EQ(scene.fluid.viscosity, 2.0);
   ASSERT_EQ(scene.flows.size(), 1u);
-  EXPECT_EQ(scene.flows[0].kind, "none");
+  EXPECT_EQ(scene.flows[0].kind, FlowKind::none);
   ASSERT_EQ(scene.fibers.size(), 2u);
   EXPECT_EQ(scene.fibers[0].sections, 12);
   EXPECT_EQ(scene.fibers[0].center, (Vec3{1.0, 2.5, -0.3}));
@@ -172,9 +175,9 @@ TEST(SceneFile, SeveralFlowsAddUpAndOverridesNameThem) {
   const std::string text = "[fiber]\n[[flow]]\nkind = \"shear\"\n[[flow]]\nkind = \"rotation\"\nrate = -1\n";
   const SceneConfig scene = read(text, {"flow[1].rate=0.5", "flow.ramp=0.1"});
   ASSERT_EQ(scene.flows.size(), 2u);
-  EXPECT_EQ(scene.flows[0].kind, "shear");
+  EXPECT_EQ(scene.flows[0].kind, FlowKind::shear);
   EXPECT_EQ(scene.flows[0].rate, 2.5);
-  EXPECT_EQ(scene.flows[1].kind, "rotation");
+  EXPECT_EQ(scene.flows[1].kind, FlowKind::rotation);
   EXPECT_EQ(scene.flows[1].rate, 0.5);
   EXPECT_EQ(scene.flows[0].ramp, 0.1);
   EXPECT_EQ(scene.flows[1].ramp, 0.1);
@@ -226,13 +229,13 @@ TEST(SceneFile, ARepulsionFitsTheThinnestFiber) {
 TEST(SceneOverrides, TakeTomlAndBareWords) {
   const SceneConfig scene = read("[fiber]\n", {"time.method=euler", "time.step=1e-3", "title=a long fiber", "seed=3",
                                                "fiber.center=[0.5, 0, -1]", "flow.kind=\"none\"", "seed=4"});
-  EXPECT_EQ(scene.time.method, "euler");
+  EXPECT_EQ(scene.time.method, TimeMethod::euler);
   EXPECT_EQ(scene.time.step, 1e-3);
   EXPECT_EQ(scene.title, "a long fiber");
   EXPECT_EQ(scene.seed, 4u);
   EXPECT_EQ(scene.fibers[0].center, (Vec3{0.5, 0.0, -1.0}));
   ASSERT_EQ(scene.flows.size(), 1u);
-  EXPECT_EQ(scene.flows[0].kind, "none");
+  EXPECT_EQ(scene.flows[0].kind, FlowKind::none);
 }
 
 TEST(SceneOverrides, HideTheMistakeThatTheyReplace) {
@@ -249,6 +252,36 @@ TEST(SceneOverrides, AreNamedInProblems) {
                 "--set seed=1 x=2: more than one value",
                 "--set =3: write TABLE.KEY=VALUE, as in fiber.sections=113",
             }));
+}
+
+TEST(SceneWords, StandForOneEnumeratorEach) {
+  const Words<TimeMethod>& words = words_of<TimeMethod>();
+  EXPECT_EQ(words.choices().size(), 6u);
+  for (const Choice& choice : words.choices()) EXPECT_EQ(words.word_of(words.value_of(choice.word)), choice.word);
+  EXPECT_EQ(read("[fiber]\n[hydrodynamics]\nprecision = \"single\"\non_miss = \"stop\"\n").hydrodynamics.on_miss,
+            OnMiss::stop);
+  try {
+    words.value_of("rk5");
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::scene_error);
+    EXPECT_NE(std::string(error.what()).find("\"rk5\" is not known: write \"auto\", \"rkc2\""), std::string::npos);
+  }
+}
+
+TEST(SceneWords, AreNotWrittenForWhatAKeyCannotBe) {
+  SceneConfig scene;
+  scene.fibers.resize(1);
+  scene.output.precision = Precision::automatic;
+  try {
+    write_scene(scene);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::internal);
+  }
+  scene.output.precision = Precision::in_single;
+  scene.time.method = static_cast<TimeMethod>(99);
+  EXPECT_THROW(write_scene(scene), Error);
 }
 
 TEST(SceneProblems, AreAllReportedInTheOrderOfTheFile) {

@@ -17,12 +17,12 @@ using reference::Cloud;
 
 struct Row {
   Sum sum;
-  PairPrecision precision;
+  Precision precision;
   double tolerance;  ///< of the largest velocity; three to four times what was measured
 };
 
 std::ostream& operator<<(std::ostream& out, const Row& row) {
-  return out << name_of(row.sum) << (row.precision == PairPrecision::in_double ? "_in_double" : "_in_single");
+  return out << name_of(row.sum) << (row.precision == Precision::in_double ? "_in_double" : "_in_single");
 }
 
 class StokesletSum : public ::testing::TestWithParam<Row> {
@@ -42,14 +42,12 @@ class StokesletSum : public ::testing::TestWithParam<Row> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(, StokesletSum,
-                         ::testing::Values(Row{Sum::general, PairPrecision::in_double, 4e-15},
-                                           Row{Sum::general, PairPrecision::in_single, 2e-6},
-                                           Row{Sum::symmetric, PairPrecision::in_double, 4e-15},
-                                           Row{Sum::symmetric, PairPrecision::in_single, 2e-6},
-                                           Row{Sum::teams, PairPrecision::in_double, 4e-15},
-                                           Row{Sum::teams, PairPrecision::in_single, 2e-6}),
-                         ::testing::PrintToStringParamName());
+INSTANTIATE_TEST_SUITE_P(
+    , StokesletSum,
+    ::testing::Values(Row{Sum::general, Precision::in_double, 4e-15}, Row{Sum::general, Precision::in_single, 2e-6},
+                      Row{Sum::symmetric, Precision::in_double, 4e-15}, Row{Sum::symmetric, Precision::in_single, 2e-6},
+                      Row{Sum::teams, Precision::in_double, 4e-15}, Row{Sum::teams, Precision::in_single, 2e-6}),
+    ::testing::PrintToStringParamName());
 
 // Both sides of every edge of packs (4 to 16 lanes), blocks (64), tiles (128), sides (192) and of the tournament.
 constexpr int sizes[] = {1,   2,   7,   63,  64,  65,  127, 128, 129, 191,  192,  193, 255,
@@ -166,10 +164,10 @@ TEST_P(StokesletSum, RefusesArraysOfDifferentLengths) {
 /// The two sums whose targets need not be the sources.
 using SumAtTargets = StokesletSum;
 INSTANTIATE_TEST_SUITE_P(, SumAtTargets,
-                         ::testing::Values(Row{Sum::general, PairPrecision::in_double, 6e-15},
-                                           Row{Sum::general, PairPrecision::in_single, 4e-6},
-                                           Row{Sum::teams, PairPrecision::in_double, 6e-15},
-                                           Row{Sum::teams, PairPrecision::in_single, 4e-6}),
+                         ::testing::Values(Row{Sum::general, Precision::in_double, 6e-15},
+                                           Row{Sum::general, Precision::in_single, 4e-6},
+                                           Row{Sum::teams, Precision::in_double, 6e-15},
+                                           Row{Sum::teams, Precision::in_single, 4e-6}),
                          ::testing::PrintToStringParamName());
 
 TEST_P(SumAtTargets, AgreesWithTheReferenceForOtherTargets) {
@@ -215,7 +213,7 @@ TEST(StokesletTeams, ResultDoesNotDependOnTheTeamSize) {
   const int largest = Policy(1, 1).team_size_max([](const Policy::member_type&) {}, Kokkos::ParallelForTag());
   if (largest < 2) GTEST_SKIP() << "this host space has no teams of several threads";
   const reference::PointForces from = make_sources(Cloud::tube, 301, {}, 7);
-  for (const PairPrecision precision : {PairPrecision::in_double, PairPrecision::in_single}) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
     const std::vector<Vec3> rest(from.position.size());
     const auto alone = add_velocity(Sum::teams, precision, from, from.position, rest, 1);
     const auto together = add_velocity(Sum::teams, precision, from, from.position, rest, 2);
@@ -225,14 +223,14 @@ TEST(StokesletTeams, ResultDoesNotDependOnTheTeamSize) {
 
 TEST(SymmetricStokeslet, RefusesTooFewNodes) {
   const reference::PointForces few = make_equal_sources(Cloud::tube, min_symmetric_nodes - 1, {}, 7);
-  EXPECT_THROW(compute_velocity(Sum::symmetric, PairPrecision::in_double, few, few.position), Error);
+  EXPECT_THROW(compute_velocity(Sum::symmetric, Precision::in_double, few, few.position), Error);
 }
 
 // Beyond max_tiles tiles of nodes_per_tile nodes the tiles grow past what is in flight at once.
 TEST(SymmetricStokeslet, AgreesWithTheGeneralSumForManyNodes) {
   const reference::PointForces many = make_equal_sources(Cloud::tube, 13001, {}, 7);
-  EXPECT_LT(reference::relative_error(compute_velocity(Sum::symmetric, PairPrecision::in_double, many, many.position),
-                                      compute_velocity(Sum::general, PairPrecision::in_double, many, many.position)),
+  EXPECT_LT(reference::relative_error(compute_velocity(Sum::symmetric, Precision::in_double, many, many.position),
+                                      compute_velocity(Sum::general, Precision::in_double, many, many.position)),
             1e-14);
 }
 

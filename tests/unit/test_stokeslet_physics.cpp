@@ -18,8 +18,7 @@ std::vector<Vec3> compute_columns(const Vec3 target, const double blob) {
   std::vector<Vec3> column;
   for (const Vec3 force : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}})
     column.push_back(
-        compute_velocity(Sum::general, PairPrecision::in_double, {{{0.0, 0.0, 0.0}}, {force}, {blob}}, {target})
-            .front());
+        compute_velocity(Sum::general, Precision::in_double, {{{0.0, 0.0, 0.0}}, {force}, {blob}}, {target}).front());
   return column;
 }
 
@@ -77,7 +76,7 @@ double sphere_mobility(const double radius, const double blob, const int n_polar
   for (const Vec3 axis : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) {
     sources.force.clear();
     for (const double s : share) sources.force.push_back(s * axis);
-    trace += dot(axis, compute_velocity(Sum::general, PairPrecision::in_double, sources, target).front());
+    trace += dot(axis, compute_velocity(Sum::general, Precision::in_double, sources, target).front());
   }
   return 6.0 * pi * test_viscosity * radius * trace / 3.0;
 }

@@ -136,7 +136,7 @@ TEST(Trajectory, StoresPositionsInSinglePrecisionOnRequestAndTimesNever) {
   const ScratchFolder scratch;
   const RunFolder folder = RunFolder::create(scratch.path() / "run", "scene", false);
   OutputConfig output;
-  output.precision = "single";
+  output.precision = Precision::in_single;
   write_three_segments(folder, output);
 
   const auto position =

@@ -25,12 +25,11 @@ void print_hashes() {
   for (const int n_nodes : {300, 1440, 7000}) {
     const reference::PointForces nodes = make_equal_sources(reference::Cloud::tube, n_nodes, {1.0, -3.0, 0.2}, 17);
     for (const Sum sum : {Sum::general, Sum::symmetric, Sum::teams})
-      for (const PairPrecision precision : {PairPrecision::in_double, PairPrecision::in_single}) {
+      for (const Precision precision : {Precision::in_double, Precision::in_single}) {
         if (n_nodes > 2000 && sum != Sum::symmetric) continue;  // only there does a large sum take another path
         const auto velocity = compute_velocity(sum, precision, nodes, nodes.position);
-        std::printf("%s %s %d %016llx\n", name_of(sum).c_str(),
-                    precision == PairPrecision::in_double ? "double" : "single", n_nodes,
-                    static_cast<unsigned long long>(hash_of(velocity.data(), velocity.size() * sizeof(Vec3))));
+        std::printf("%s %s %d %016llx\n", name_of(sum).c_str(), precision == Precision::in_double ? "double" : "single",
+                    n_nodes, static_cast<unsigned long long>(hash_of(velocity.data(), velocity.size() * sizeof(Vec3))));
       }
     const HostVectors position = make_host_vectors(nodes.position), force = make_host_vectors(nodes.force);
     const double dot = dot_product<HostSpace>(HostSpace(), position, force);

@@ -1,23 +1,12 @@
 #pragma once
 
+#include <skein/core/far_field.hpp>
+#include <skein/core/precision.hpp>
+
 #include <string>
 #include <vector>
 
 namespace skein {
-
-/// How distant boxes see the blobs.
-enum class FarField {
-  harmonic,     ///< four harmonic potentials with the eps^2 doublet: error floor 0.011 (eps / half-width)^4
-  stokeslet,    ///< strengths of singular Stokeslets, matched to the field of the blobs: floor 0.1 (eps / half-width)^4
-  regularized,  ///< S_eps in every operator, one common eps: floor 0.05 (eps / half-width)^4
-};
-
-enum class FmmPrecision { automatic, in_double, in_single };
-
-enum class OnMiss {
-  raise_order,  ///< a measured error above the tolerance is reported and mended with the next order
-  stop,         ///< ... ends the run
-};
 
 /// Where the fast multipole method's arrays and loops are.
 enum class FmmPath {
@@ -33,7 +22,7 @@ struct FmmOptions {
   int order = 0;                ///< p, points per edge of the surfaces, 4 .. 16
   int leaf_size = 0;            ///< nodes per leaf aimed at
   double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
-  FmmPrecision precision = FmmPrecision::automatic;
+  Precision precision = Precision::automatic;
   bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
   bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
   double singular_cutoff = 0.0;      ///< of the surface operators, relative; a raised order has its own

@@ -3,11 +3,15 @@
 #include <skein/arrays/types.hpp>
 #include <skein/scene/scene_config.hpp>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace skein {
+
+/// Row i, column j: d u_i / d x_j, 1 / time.
+using VelocityGradient = std::array<std::array<double, 3>, 3>;
 
 /// The flow far from all fibers.
 class BackgroundFlow {
@@ -18,6 +22,9 @@ class BackgroundFlow {
   /// @param position, velocity  [n, 3], length and length / time. Returns before a device has finished.
   /// @throws Error(internal) if the extents differ
   virtual void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const = 0;
+
+  /// At one position, exactly.
+  virtual VelocityGradient gradient(double time, Vec3 position) const = 0;
 
   /// Largest rate of deformation sqrt(2 E : E), E the symmetric part of the velocity gradient: the shear rate of a
   /// shear flow, twice the stretching rate of a planar extension, 0 where the fluid turns as a rigid body. A sum of
@@ -31,9 +38,10 @@ class BackgroundFlow {
   virtual std::string describe() const = 0;
 };
 
-/// The sum of a scene's flows. A new kind is a word in src/config/scene_keys.cpp and its term in
-/// src/model/scene_flow.cpp.
-/// @throws Error(scene_error) for a kind that is not known
+/// The sum of a scene's flows. A new kind is an enumerator in include/skein/scene/choices.hpp, its word in
+/// src/scene/words.cpp and its row in src/physics/flow_table.cpp; where none of the shapes in kernels/flow_velocity.hpp
+/// fits, also a formula and its gradient in kernels/flow_velocity.cpp.
+/// @throws Error(internal) for a kind without a row
 std::unique_ptr<BackgroundFlow> make_background_flow(const std::vector<FlowConfig>& flows);
 
 }  // namespace skein

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <skein/core/precision.hpp>
 #include <skein/physics/mobility.hpp>
 
 namespace skein {
-
-enum class Precision { in_double, in_single };
 
 /// The regularized Stokeslets of all sources, summed pair by pair: O(n_sources n_targets), exact to rounding in double,
 /// to about 1e-6 in single precision (positions, differences and long sums stay double).
 class DirectMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
+  /// @param precision  automatic: double
   DirectMobility(double viscosity, Precision precision);
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;

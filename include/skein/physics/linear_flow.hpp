@@ -2,12 +2,7 @@
 
 #include <skein/physics/background_flow.hpp>
 
-#include <array>
-
 namespace skein {
-
-/// Row i, column j: d u_i / d x_j, 1 / time.
-using VelocityGradient = std::array<std::array<double, 3>, 3>;
 
 /// u = (rate y, 0, 0).
 VelocityGradient make_shear_gradient(double rate);
@@ -27,6 +22,7 @@ class LinearFlow : public BackgroundFlow {
   LinearFlow(const VelocityGradient& gradient, Vec3 origin) : gradient_(gradient), origin_(origin) {}
 
   void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const override;
+  VelocityGradient gradient(double, Vec3) const override { return gradient_; }
   double typical_rate() const override;  ///< sqrt(2 E : E) with the symmetric part E of G: the shear rate in shear
   double time_scale() const override;
   std::string describe() const override;

@@ -13,7 +13,7 @@ namespace skein {
 /// The method behind a scene's velocities, and why.
 struct MobilityChoice {
   bool is_direct = true;
-  Precision precision = Precision::in_double;  ///< of direct sums
+  Precision precision = Precision::automatic;  ///< of direct sums
   FmmOptions fmm;
   std::string reason;  ///< of method = "auto"; else empty
 };

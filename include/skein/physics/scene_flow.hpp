@@ -9,10 +9,11 @@ namespace skein {
 /// The sum of the flows that a scene names, each with its own course in time.
 class SceneFlow final : public BackgroundFlow {
  public:
-  /// @throws Error(scene_error) for a kind that is not known
+  /// @throws Error(internal) for a kind without a row in the table of flows
   explicit SceneFlow(const std::vector<FlowConfig>& flows);
 
   void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const override;
+  VelocityGradient gradient(double time, Vec3 position) const override;
   double typical_rate() const override;
   double time_scale() const override;
   std::string describe() const override;

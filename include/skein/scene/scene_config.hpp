@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/core/vec3.hpp>
+#include <skein/scene/choices.hpp>
 
 #include <cstdint>
 #include <string>
@@ -9,8 +10,8 @@
 namespace skein {
 
 // What a scene says, as plain structs with the defaults that `skein defaults` prints. Units are those of the scene:
-// length, time, and force = viscosity * length^2 / time. Each key's meaning, unit and range stand where it is read
-// (src/config/scene_keys.cpp), once.
+// length, time, and force = viscosity * length^2 / time. Each key's meaning, unit and range stand where it is read,
+// once: src/scene/scene_keys.cpp, and src/scene/repeatable_tables.cpp for tables of which there may be several.
 
 struct FluidConfig {
   double viscosity = 1.0;  ///< > 0, force * time / length^2
@@ -18,15 +19,15 @@ struct FluidConfig {
 
 /// A part of the flow far from all fibers; several instances add up. With x, y, z measured from `center` and r(t) the
 /// rate at time t, its velocity is
-///   "shear"               (r y, 0, 0)
-///   "planar_extension"    (-r x, r y, 0)
-///   "uniaxial_extension"  (r x, -r y/2, -r z/2)
-///   "rotation"            (-r y, r x, 0)
-///   "poiseuille"          (r size/2 (1 - (y/size)^2), 0, 0)
-///   "vortices"            r/k (sin(k x) cos(k y), -cos(k x) sin(k y), 0), k = pi/size
-///   "none"                0
+///   shear               (r y, 0, 0)
+///   planar_extension    (-r x, r y, 0)
+///   uniaxial_extension  (r x, -r y/2, -r z/2)
+///   rotation            (-r y, r x, 0)
+///   poiseuille          (r size/2 (1 - (y/size)^2), 0, 0)
+///   vortices            r/k (sin(k x) cos(k y), -cos(k x) sin(k y), 0), k = pi/size
+///   none                0
 struct FlowConfig {
-  std::string kind = "shear";
+  FlowKind kind = FlowKind::shear;
   double rate = 2.5;               ///< 1 / time
   Vec3 center{0.0, 0.0, 0.0};      ///< length
   double size = 1.0;               ///< > 0, length
@@ -68,14 +69,14 @@ struct FiberConfig {
 
 /// Where the fibers of a scene stand.
 struct PlacementConfig {
-  std::string kind = "as_written";         ///< "as_written", "grid", "random"
-  Vec3 center{0.0, 0.0, 0.0};              ///< of grid or box, length
-  Vec3 grid{1.0, 1.0, 1.0};                ///< numbers of fibers along x, y, z
-  Vec3 spacing{0.1, 0.1, 0.1};             ///< of the grid, length
-  int count = 10;                          ///< of random fibers
-  Vec3 box{1.0, 1.0, 1.0};                 ///< sides of the box that holds random fibers, length
-  double gap = 0.0;                        ///< between surfaces of random fibers at least, length
-  std::string orientation = "as_written";  ///< "as_written", "random"
+  PlacementKind kind = PlacementKind::as_written;
+  Vec3 center{0.0, 0.0, 0.0};   ///< of grid or box, length
+  Vec3 grid{1.0, 1.0, 1.0};     ///< numbers of fibers along x, y, z
+  Vec3 spacing{0.1, 0.1, 0.1};  ///< of the grid, length
+  int count = 10;               ///< of random fibers
+  Vec3 box{1.0, 1.0, 1.0};      ///< sides of the box that holds random fibers, length
+  double gap = 0.0;             ///< between surfaces of random fibers at least, length
+  Orientation orientation = Orientation::as_written;
 };
 
 /// What keeps fibers, and distant sections of one, from touching. Two sections with a gap g < range between their
@@ -86,27 +87,27 @@ struct RepulsionConfig {
 };
 
 struct HydrodynamicsConfig {
-  std::string method = "auto";          ///< "auto", "direct", "fmm"
-  std::string precision = "auto";       ///< "auto", "double", "single": arithmetic of a pair
-  double tolerance = 1e-5;              ///< of velocities, relative (2-norm), where they are not summed directly
-  std::string far_field = "harmonic";   ///< "harmonic", "stokeslet", "regularized"
-  int order = 0;                        ///< points per edge of the surfaces; 0: as the tolerance needs
-  int leaf_size = 0;                    ///< nodes per leaf of the tree; 0: as the order needs
-  int check_every = 50;                 ///< evaluations from check to check; 0: no checks
-  std::string on_miss = "raise_order";  ///< "raise_order", "stop"
+  SumMethod method = SumMethod::automatic;
+  Precision precision = Precision::automatic;  ///< arithmetic of a pair
+  double tolerance = 1e-5;                     ///< of velocities, relative (2-norm), where they are not summed directly
+  FarField far_field = FarField::harmonic;
+  int order = 0;         ///< points per edge of the surfaces; 0: as the tolerance needs
+  int leaf_size = 0;     ///< nodes per leaf of the tree; 0: as the order needs
+  int check_every = 50;  ///< evaluations from check to check; 0: no checks
+  OnMiss on_miss = OnMiss::raise_order;
 };
 
 struct TimeConfig {
-  std::string method = "rkc2";  ///< "auto", "rkc2", "trbdf2", "rk4", "bs3", "euler"
-  double end = 12.0;            ///< time
-  double step = 0.0;            ///< time; 0 lets the error control choose; euler needs one
-  double tolerance = 1e-4;      ///< error per unit time, as a fraction of the longest fiber's length
-  double max_step = 0.1;        ///< time
+  TimeMethod method = TimeMethod::rkc2;
+  double end = 12.0;        ///< time
+  double step = 0.0;        ///< time; 0 lets the error control choose; euler needs one
+  double tolerance = 1e-4;  ///< error per unit time, as a fraction of the longest fiber's length
+  double max_step = 0.1;    ///< time
 };
 
 struct OutputConfig {
-  double frame_interval = 0.05;      ///< time between frames
-  std::string precision = "double";  ///< "double", "single": positions in frames
+  double frame_interval = 0.05;                ///< time between frames
+  Precision precision = Precision::in_double;  ///< of positions in frames; never automatic
 };
 
 struct CheckpointConfig {

@@ -13,6 +13,7 @@ class Euler final : public Integrator {
 
   void interpolate(double time, const Vectors& position) const override;
   void visit_memory(MemoryVisitor& visitor) override;
+  TimeMethod method() const override { return TimeMethod::euler; }
   std::string describe() const override;
 
  private:

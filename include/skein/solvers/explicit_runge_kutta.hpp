@@ -8,6 +8,7 @@ namespace skein {
 
 /// An explicit method whose step ends where its last velocity is taken, so that the next step has it for nothing.
 struct RungeKuttaTableau {
+  TimeMethod method;
   std::string name;
   double estimate_order;                    ///< with which the estimated error per unit time falls with the step
   std::vector<double> node;                 ///< [n_stages], stage times over dt; the first is 0
@@ -28,6 +29,8 @@ RungeKuttaTableau make_classical_runge_kutta();
 class ExplicitRungeKutta final : public ControlledIntegrator {
  public:
   ExplicitRungeKutta(RightHandSide& rhs, const ControlOptions& options, RungeKuttaTableau tableau, int n_nodes);
+
+  TimeMethod method() const override { return tableau_.method; }
 
  private:
   Attempt attempt(double time, double dt) override;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/arrays/memory_snapshot.hpp>
+#include <skein/core/time_method.hpp>
 #include <skein/solvers/right_hand_side.hpp>
 
 #include <cstdint>
@@ -44,6 +45,10 @@ class Integrator {
   /// All that the next step depends on besides the state: what a restart needs, and no more.
   virtual void visit_memory(MemoryVisitor& visitor) = 0;
 
+  /// What a scene calls this method; of an integrator that was chosen, the one that was.
+  virtual TimeMethod method() const = 0;
+
+  /// One line for the first lines of a run.
   virtual std::string describe() const = 0;
 
  protected:

@@ -9,7 +9,7 @@ namespace skein {
 
 /// Which method is expected to do with the least work, and why.
 struct MethodSelection {
-  std::string method;  ///< as in a scene's time.method
+  TimeMethod method;
   std::string reason;  ///< one line with the numbers that decided
 };
 
@@ -28,6 +28,7 @@ class SelectedIntegrator final : public Integrator {
     integrator_->interpolate(time, position);
   }
   void visit_memory(MemoryVisitor& visitor) override { integrator_->visit_memory(visitor); }
+  TimeMethod method() const override { return integrator_->method(); }
   std::string describe() const override;
 
  private:

@@ -19,6 +19,7 @@ class Rkc2 final : public ControlledIntegrator {
   Rkc2(RightHandSide& rhs, const Rkc2Options& options, int n_nodes);
 
   void visit_memory(MemoryVisitor& visitor) override;
+  TimeMethod method() const override { return TimeMethod::rkc2; }
 
   /// Of the estimate of the spectral radius: sections that ovalize blow up within 20 steps of one that is too low.
   static constexpr double spectral_margin = 1.2;

@@ -22,6 +22,7 @@ class TrBdf2 final : public ControlledIntegrator {
   static constexpr double largest_step_ratio = 0.4;
 
   void visit_memory(MemoryVisitor& visitor) override;
+  TimeMethod method() const override { return TimeMethod::trbdf2; }
   std::string describe() const override;
 
  private:

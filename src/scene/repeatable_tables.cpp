@@ -1,0 +1,127 @@
+#include "repeatable_tables.hpp"
+
+#include "key_ranges.hpp"
+
+#include <algorithm>
+
+namespace skein {
+namespace {
+
+void visit_flow(KeyVisitor& visitor, FlowConfig& flow) {
+  visitor.choice({"kind", "", {}, "velocity"}, words_of<FlowKind>(), flow.kind);
+  visitor.number(
+      {"rate", "1 / time", any_number(),
+       "shear rate; of extensions the stretching rate along x or y; of the rotation the angular velocity; of "
+       "poiseuille the shear rate at the planes; of vortices the stretching rate at the corners of cells"},
+      flow.rate);
+  visitor.vector({"center", "length", any_number(), "origin of the flow"}, flow.center);
+  visitor.number({"size", "length", above_zero(), "half width of poiseuille, side of a cell of vortices"}, flow.size);
+  visitor.number({"angular_frequency", "radians / time", any_number(),
+                  "of an oscillating flow: r = rate cos(angular_frequency t + phase)"},
+                 flow.angular_frequency);
+  visitor.number({"phase", "degrees", between(-360, 360), "of an oscillating flow; 0 starts at the full rate"},
+                 flow.phase);
+  visitor.number({"start", "time", zero_or_more(), "no flow before"}, flow.start);
+  visitor.number({"stop", "time", zero_or_more(), "no flow after; 0: it never stops"}, flow.stop);
+  visitor.number({"ramp", "time", zero_or_more(), "time over which the flow rises after start and falls after stop"},
+                 flow.ramp);
+}
+
+void visit_start_shape(KeyVisitor& visitor, FiberConfig& fiber) {
+  visitor.integer({"start_mode", "", between(1, 1000),
+                   "half waves of the bend at the start; 1: a C, 2: an S. Springs keep the straight fiber's lengths"},
+                  fiber.start_mode);
+  visitor.number({"start_amplitude", "", between(0.0, 0.2),
+                  "largest deflection of that bend, as a fraction of the fiber's length; 0: straight"},
+                 fiber.start_amplitude);
+  visitor.number({"start_plane", "degrees", between(-360, 360),
+                  "direction of that bend about the fiber; 0: towards y for a fiber along x, 90: towards z"},
+                 fiber.start_plane);
+  visitor.number({"start_noise", "", between(0.0, 0.02),
+                  "random bends of 1 to 10 half waves in all directions, each with up to this amplitude as a fraction "
+                  "of the fiber's length; they follow from seed and the fiber's number"},
+                 fiber.start_noise);
+}
+
+void visit_springs(KeyVisitor& visitor, FiberConfig& fiber) {
+  visitor.profile({"stiffness_profile",
+                   "",
+                   {0.0, largest_number, "2 to 64 pairs"},
+                   "[position, factor] pairs, position 0 at the first section and 1 at the last: springs are factor "
+                   "times as stiff there, straight lines in between"},
+                  fiber.stiffness_profile);
+  visitor.number({"stiffness_within_sections", "", above_zero(), "factor of the springs inside sections"},
+                 fiber.stiffness_within_sections);
+  visitor.number({"stiffness_between_sections", "", above_zero(), "factor of the springs from section to section"},
+                 fiber.stiffness_between_sections);
+  visitor.integer({"reach_along", "", between(1, 8), "springs join sections up to this far apart"}, fiber.reach_along);
+  visitor.integer({"reach_around", "", between(0, 500),
+                   "springs join nodes whose places on their sections differ by up to this; 0: all"},
+                  fiber.reach_around);
+}
+
+void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
+  visitor.integer({"sections", "", between(2, 1e9), "number of circular cross-sections along the fiber"},
+                  fiber.sections);
+  visitor.integer({"nodes_per_section", "", between(3, 1000),
+                   "number of nodes on a cross-section; sections lie as far apart as neighbouring nodes of one"},
+                  fiber.nodes_per_section);
+  visitor.number({"radius", "length", above_zero(), "radius of the cross-sections"}, fiber.radius);
+  visitor.number({"spring_stiffness", "force", above_zero(), "force of a spring stretched to twice its rest length"},
+                 fiber.spring_stiffness);
+  visitor.number({"blob", "length", above_zero(),
+                  "regularization length of the nodes' forces; below the radius, about the distance of nodes"},
+                 fiber.blob);
+  visitor.vector({"center", "length", any_number(), "middle of the fiber at the start"}, fiber.center);
+  visitor.vector({"direction", "", any_number(), "direction of the fiber at the start; its length does not matter"},
+                 fiber.direction);
+  visitor.number({"roll", "degrees", between(-360, 360), "rotation of the fiber about its direction"}, fiber.roll);
+  visit_start_shape(visitor, fiber);
+  visit_springs(visitor, fiber);
+}
+
+/// @param instances  the scene's list of them
+/// @param visit_one  shows the keys of one
+template <class Config>
+RepeatableTable make_table(const std::string& name, const WhenAbsent when_absent,
+                           std::vector<Config> SceneConfig::*const instances, void (*visit_one)(KeyVisitor&, Config&),
+                           const std::string& meaning) {
+  return {name, when_absent,
+          [instances](SceneConfig& scene, const std::size_t n_instances) { (scene.*instances).resize(n_instances); },
+          [=](KeyVisitor& visitor, SceneConfig& scene) {
+            const Table table = {name, true, meaning, (scene.*instances).size(),
+                                 when_absent == WhenAbsent::stands_for_none};
+            for (Config& instance : scene.*instances) {
+              visitor.begin_table(table);
+              visit_one(visitor, instance);
+              visitor.end_table();
+            }
+          }};
+}
+
+}  // namespace
+
+const std::vector<RepeatableTable>& repeatable_tables() {
+  static const std::vector<RepeatableTable> tables = {
+      make_table(
+          "flow", WhenAbsent::stands_for_one, &SceneConfig::flows, visit_flow,
+          "The flow that would be there without fibers; [[flow]] once for each of several, whose velocities are added. "
+          "r is the rate at the time, x, y and z are measured from the center."),
+      make_table("fiber", WhenAbsent::is_an_error, &SceneConfig::fibers, visit_fiber,
+                 "A tube of surface nodes, straight at rest; [[fiber]] once for each of several.")};
+  return tables;
+}
+
+const RepeatableTable* find_repeatable_table(const std::string& name) {
+  const auto& tables = repeatable_tables();
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const auto& table) { return table.name == name; });
+  return found == tables.end() ? nullptr : &*found;
+}
+
+SceneConfig make_scene_with_every_table() {
+  SceneConfig scene;
+  for (const RepeatableTable& table : repeatable_tables()) table.resize(scene, 1);
+  return scene;
+}
+
+}  // namespace skein
