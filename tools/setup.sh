@@ -6,7 +6,7 @@ packages=(
   # build
   g++ cmake ninja-build make git ccache
   # libraries
-  libeigen3-dev libhdf5-dev libopenmpi-dev libcli11-dev libtomlplusplus-dev libfmt-dev libspdlog-dev libxxhash-dev
+  libeigen3-dev libhdf5-dev libopenmpi-dev libcli11-dev libtomlplusplus-dev libfmt-dev libxxhash-dev
   # tests and benchmarks
   libgtest-dev librapidcheck-dev libbenchmark-dev
   # plots, and checks of the files written
