@@ -1,7 +1,5 @@
 #include <skein/analysis/centreline.hpp>
 
-#include "kernels/section_centroid.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,16 +34,6 @@ double distance_to_line(const Vec3 point, const std::span<const Vec3> line, std:
 }
 
 }  // namespace
-
-std::vector<Vec3> compute_centreline(const std::vector<Fiber>& fibers, const ConstVectors& position) {
-  const Vectors centroid("skein::compute_centreline", static_cast<std::size_t>(count_sections(fibers)));
-  for (const Fiber& fiber : fibers)
-    compute_section_centroids<ExecSpace>(
-        ExecSpace(), position,
-        {fiber.first_node, fiber.config.sections, fiber.config.nodes_per_section, fiber.config.radius},
-        fiber.first_section, centroid);
-  return to_host(centroid);
-}
 
 std::vector<double> compute_curvature(const std::span<const Vec3> centreline, const int reach) {
   const int n = static_cast<int>(centreline.size());

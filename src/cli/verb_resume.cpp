@@ -8,7 +8,7 @@
 #include "cli/common_options.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_control.hpp"
-#include "runs/simulation.hpp"
+#include "runs/simulate.hpp"
 #include "runs/terminal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -64,11 +64,9 @@ int resume_run(const ResumeOptions& options) {
 
   const Runtime runtime(options.threads);
   RunControl control(options.max_walltime);
-  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
-                        ProgressReport::choose_kind(options.quiet), options.quiet);
-  simulation.say(what_happened + describe_point(point, scene));
-  simulation.introduce();
-  return static_cast<int>(simulation.run());
+  return static_cast<int>(simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
+                                   ProgressReport::choose_kind(options.quiet), options.quiet,
+                                   what_happened + describe_point(point, scene)));
 }
 
 }  // namespace

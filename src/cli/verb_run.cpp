@@ -6,10 +6,9 @@
 #include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
-#include "runs/evaluation_time.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/run_control.hpp"
-#include "runs/simulation.hpp"
+#include "runs/simulate.hpp"
 #include "runs/terminal.hpp"
 
 #include <fmt/format.h>
@@ -45,10 +44,8 @@ int run_scene(const RunOptions& options) {
   RunControl control(options.max_walltime);
   std::optional<RunLock> lock;
   const RunFolder folder = make_folder(options, write_scene(reading.config), lock);
-  Simulation simulation(reading.config, folder, nullptr, control, ProgressReport::choose_kind(options.quiet),
-                        options.quiet);
-  simulation.introduce();
-  return static_cast<int>(simulation.run());
+  return static_cast<int>(
+      simulate(reading.config, folder, nullptr, control, ProgressReport::choose_kind(options.quiet), options.quiet));
 }
 
 }  // namespace skein

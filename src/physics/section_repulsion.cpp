@@ -1,6 +1,7 @@
 #include "kernels/section_repulsion.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/physics/repulsion_range.hpp>
 #include <skein/physics/section_repulsion.hpp>
 
 #include "device_list.hpp"
@@ -102,13 +103,6 @@ std::vector<std::array<double, 6>> SectionRepulsion::compute_moments(const Const
     moments.push_back({a.x, a.y, a.z, b.x, b.y, b.z});
   }
   return moments;
-}
-
-double find_repulsion_range(const RepulsionConfig& config, const std::vector<Fiber>& fibers) {
-  if (config.range > 0.0) return config.range;
-  double thinnest = std::numeric_limits<double>::infinity();
-  for (const Fiber& fiber : fibers) thinnest = std::min(thinnest, fiber.config.radius);
-  return thinnest;
 }
 
 std::unique_ptr<SectionRepulsion> make_section_repulsion(const RepulsionConfig& config,

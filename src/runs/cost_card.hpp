@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/physics/mobility.hpp>
+#include <skein/physics/error_record.hpp>
 
 #include <cstdint>
 #include <string>

@@ -5,9 +5,9 @@
 #include <skein/core/version.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/spring_network.hpp>
-#include <skein/physics/background_flow.hpp>
+#include <skein/physics/flow_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
-#include <skein/solvers/rkc2.hpp>
+#include <skein/solvers/rkc2_stages.hpp>
 
 #include "runs/scene_summary.hpp"
 
@@ -24,13 +24,13 @@ namespace {
 double expect_evaluations(const SceneConfig& scene, const double spectral_radius) {
   const double end = scene.time.end;
   if (scene.time.method == "euler") return end / scene.time.step;
-  const double rate = std::max(1.0 / make_background_flow(scene.flows)->time_scale(), 1e-3);
+  const double rate = std::max(1.0 / summarize_flow(scene.flows).time_scale, 1e-3);
   const double dt = scene.time.step > 0.0
                         ? scene.time.step
                         : std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
   if (scene.time.method == "rk4" || scene.time.method == "bs3")
     return 4.0 * end * std::max(1.0 / dt, spectral_radius / 2.5);
-  return end / dt * Rkc2::stages_for(dt, Rkc2::spectral_margin * spectral_radius);
+  return end / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
 }
 
 /// Of a fiber's springs, force.
@@ -58,12 +58,12 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  const auto flow = make_background_flow(scene.flows);
+  const FlowSummary flow = summarize_flow(scene.flows);
   layout.attributes = {{"title", scene.title},      {"scene", scene_text},
                        {"version", version()},      {"commit", commit()},
                        {"build", describe_build()}, {"backend", describe_backend()},
-                       {"flow", flow->describe()},  {"integrator", scene.time.method}};
-  const double rate = flow->typical_rate();
+                       {"flow", flow.description},  {"integrator", scene.time.method}};
+  const double rate = flow.typical_rate;
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
@@ -82,8 +82,8 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   return layout;
 }
 
-std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
-                         const Integrator& integrator, const EvaluationCost& cost) {
+std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& integrator,
+                         const EvaluationCost& cost) {
   const double n_nodes = count_nodes(fibers);
   const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
   const double bytes = n_frames * n_nodes * (scene.output.precision == "single" ? 12.0 : 24.0);
@@ -91,8 +91,8 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   const double evaluations = expect_evaluations(scene, radius);
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
-  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", dynamics.flow().describe(),
-                      describe_choice(choose_mobility(scene), scene), integrator.describe(), scene.time.end);
+  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", summarize_flow(scene.flows).description,
+                      describe_choice(choose_mobility(scene), scene), integrator, scene.time.end);
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);

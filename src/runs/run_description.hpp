@@ -1,11 +1,10 @@
 #pragma once
 
-#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/fibers/fiber.hpp>
 #include <skein/io/trajectory.hpp>
 #include <skein/scene/scene_config.hpp>
-#include <skein/solvers/integrator.hpp>
 
-#include "runs/evaluation_time.hpp"
+#include "runs/evaluation_cost.hpp"
 
 #include <string>
 #include <vector>
@@ -17,7 +16,8 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
                                  const std::vector<Fiber>& fibers);
 
 /// A run's first lines: version, device, size, methods and why, what it will take.
-std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const FiberDynamics& dynamics,
-                         const Integrator& integrator, const EvaluationCost& cost);
+/// @param integrator  as it describes itself
+std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& integrator,
+                         const EvaluationCost& cost);
 
 }  // namespace skein

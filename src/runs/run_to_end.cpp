@@ -7,7 +7,7 @@
 #include <skein/scene/scene_file.hpp>
 
 #include "runs/run_control.hpp"
-#include "runs/simulation.hpp"
+#include "runs/simulate.hpp"
 
 #include <fmt/format.h>
 
@@ -32,10 +32,8 @@ ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& path,
   const ResumePoint point = find_resume_point(folder);
   if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) return ExitCode::done;
   RunControl control(max_walltime);
-  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
-                        ProgressReport::choose_kind(quiet), quiet);
-  simulation.introduce();
-  return simulation.run();
+  return simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control,
+                  ProgressReport::choose_kind(quiet), quiet);
 }
 
 }  // namespace skein

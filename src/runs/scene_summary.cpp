@@ -3,8 +3,8 @@
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/spring_network.hpp>
-#include <skein/physics/background_flow.hpp>
-#include <skein/physics/section_repulsion.hpp>
+#include <skein/physics/flow_summary.hpp>
+#include <skein/physics/repulsion_range.hpp>
 
 #include <fmt/format.h>
 
@@ -35,7 +35,7 @@ std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const i
     text += fmt::format(
         "  the stiffness varies along the fiber, from {:g} to {:g} times spring_stiffness: means are given\n",
         softest->factor, stiffest->factor);
-  const double rate = make_background_flow(scene.flows)->typical_rate();
+  const double rate = summarize_flow(scene.flows).typical_rate;
   if (rate > 0.0) {
     const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
     text += fmt::format(
@@ -51,7 +51,7 @@ std::string describe_fiber(const SceneConfig& scene, const Fiber& fiber, const i
 std::string describe_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
   const double strength = scene.repulsion.strength, range = find_repulsion_range(scene.repulsion, fibers);
   if (strength == 0.0) return {};
-  const double rate = make_background_flow(scene.flows)->typical_rate();
+  const double rate = summarize_flow(scene.flows).typical_rate;
   double radius = 0.0, length = 0.0;
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f) {
     radius = std::max(radius, fibers[f].config.radius);

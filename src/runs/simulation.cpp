@@ -11,6 +11,7 @@
 #include "runs/evaluation_time.hpp"
 #include "runs/observables.hpp"
 #include "runs/run_description.hpp"
+#include "runs/simulate.hpp"
 
 #include <fmt/format.h>
 
@@ -137,7 +138,7 @@ void Simulation::introduce() {
   spare_evaluations_ = dynamics_.evaluations();
   spare_pairs_ = dynamics_.mobility().pairs();
   spare_seconds_ = dynamics_.seconds();
-  say(describe_run(scene_, fibers_, dynamics_, *integrator_, cost));
+  say(describe_run(scene_, fibers_, integrator_->describe(), cost));
 }
 
 void Simulation::say(const std::string& text) {
@@ -357,6 +358,26 @@ void Simulation::record_step(const StepReport& report) {
     say(warning);
     events_.write("warning", {{"time", state_.time}, {"step", state_.step}, {"message", warning}});
   }
+}
+
+ExitCode simulate(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
+                  const ProgressReport::Kind progress, const bool quiet, const std::string& first_words) {
+  Simulation simulation(scene, folder, checkpoint, control, progress, quiet);
+  if (!first_words.empty()) simulation.say(first_words);
+  simulation.introduce();
+  return simulation.run();
+}
+
+std::string describe_dry_run(const SceneConfig& scene) {
+  const auto fibers = make_fibers(scene.fibers);
+  FiberDynamics dynamics(fibers, std::make_unique<SpringForces>(fibers), make_background_flow(scene.flows),
+                         make_mobility(scene), make_section_repulsion(scene.repulsion, fibers));
+  const auto integrator = make_integrator(scene, fibers, dynamics);
+  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(fibers, scene.seed));
+  EvaluationCost cost = time_evaluation(dynamics, position);
+  if (dynamics.mobility().error_record().n_approximate > 0)
+    cost.direct_seconds = time_direct_sum(position, scene.fluid.viscosity);
+  return describe_run(scene, fibers, integrator->describe(), cost);
 }
 
 }  // namespace skein

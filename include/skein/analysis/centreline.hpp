@@ -1,15 +1,12 @@
 #pragma once
 
-#include <skein/arrays/types.hpp>
+#include <skein/core/vec3.hpp>
 #include <skein/fibers/fiber.hpp>
 
 #include <span>
 #include <vector>
 
 namespace skein {
-
-/// Centroids of all sections of all fibers, computed on the device. @returns [n_sections], length
-std::vector<Vec3> compute_centreline(const std::vector<Fiber>& fibers, const ConstVectors& position);
 
 /// The sections of one fiber in a list of all sections.
 inline std::span<const Vec3> centreline_of(const Fiber& fiber, const std::vector<Vec3>& centreline) {

@@ -1,10 +1,9 @@
 #pragma once
 
+#include <skein/core/precision.hpp>
 #include <skein/physics/mobility.hpp>
 
 namespace skein {
-
-enum class Precision { in_double, in_single };
 
 /// The regularized Stokeslets of all sources, summed pair by pair: O(n_sources n_targets), exact to rounding in double,
 /// to about 1e-6 in single precision (positions, differences and long sums stay double).

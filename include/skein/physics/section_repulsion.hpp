@@ -63,9 +63,6 @@ class SectionRepulsion {
   Vectors displacement_;  ///< [n_sections, 3]
 };
 
-/// The range that a scene asks for, length: 0 stands for the radius of the thinnest fiber.
-double find_repulsion_range(const RepulsionConfig& config, const std::vector<Fiber>& fibers);
-
 /// What a scene asks for; null where its strength is 0.
 std::unique_ptr<SectionRepulsion> make_section_repulsion(const RepulsionConfig& config,
                                                          const std::vector<Fiber>& fibers);
