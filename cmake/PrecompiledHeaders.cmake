@@ -9,6 +9,11 @@ if(SKEIN_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND N
   set(skein_precompiles TRUE)
 endif()
 
+# ccache holds nothing that used a precompiled header unless it is told to trust the header's #defines and time.
+if(skein_precompiles AND CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache")
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CMAKE_CXX_COMPILER_LAUNCHER})
+endif()
+
 # skein_add_precompiled(<name> HEADERS <"fmt/format.h">... [LIBRARIES targets...]): headers compiled with the options of the
 # layers; position independent like these, for the compiler rejects a precompiled header that is not.
 function(skein_add_precompiled name)
@@ -19,7 +24,7 @@ function(skein_add_precompiled name)
   target_link_libraries(${name} PRIVATE skein_compiler_options ${arg_LIBRARIES})
   list(TRANSFORM arg_HEADERS REPLACE "(.+)" "<\\1>")
   target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
-  # Else ccache does not cache what uses them; it wants CCACHE_SLOPPINESS=pch_defines,time_macros as well (tools/build.sh).
+  # Without it g++ leaves the headers' name out of what ccache compares.
   target_compile_options(${name} PUBLIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, configures and builds one preset:
-#   tools/build.sh [openmp|serial|release|sanitize|cuda|hip] [--target NAME] [options for cmake]
+#   tools/build.sh [openmp|serial|release|sanitize|cuda|hip] [--target=NAME...] [options for cmake]
 # Without a target everything is built, tests and benches too.
 # With SKEIN_SETUP_OPTIONS in the environment, tools/setup.sh is given those too.
 set -euo pipefail
@@ -25,14 +25,7 @@ targets=()
 options=()
 while (($#)); do
   case $1 in
-    --target)
-      (($# > 1)) || {
-        echo "build.sh: --target needs a name." >&2
-        exit 1
-      }
-      targets+=(--target "$2")
-      shift
-      ;;
+    --target=*) targets+=(--target "${1#*=}") ;;
     *) options+=("$1") ;;
   esac
   shift

@@ -1,7 +1,12 @@
-"""The compile commands of a build folder, without what ties them to that build: output, precompiled headers, a cache."""
+"""usage: compile_commands.py BUILD > compile_commands.json
+
+The compile commands of a build folder, without what ties them to that build: output, a cache, and g++'s precompiled headers,
+on which clang's tools stop. Without the checks of the house it serves editors.
+"""
 
 import json
 import shlex
+import sys
 from pathlib import Path
 
 WITH_ARGUMENT = ("-o", "-include", "-MF", "-MT")
@@ -25,3 +30,13 @@ def read_commands(build):
             at += 1
         commands[source] = (words[0], options)
     return commands
+
+
+def main(build):
+    entries = [{"directory": str(Path(build).resolve()), "file": source, "arguments": [compiler, *options, "-c", source]}
+               for source, (compiler, options) in read_commands(build).items()]
+    json.dump(entries, sys.stdout, indent=1)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
