@@ -1,6 +1,10 @@
-# Warnings, native code and sanitizers, for our own targets only.
+# The language, warnings, native code and sanitizers, for our own targets only: linked as $<BUILD_INTERFACE:...>, they are
+# no part of the installed package.
 
 add_library(skein_compiler_options INTERFACE)
+target_compile_features(skein_compiler_options INTERFACE cxx_std_20)
+# Only the host uses Eigen; its device annotations make nvcc warn.
+target_compile_definitions(skein_compiler_options INTERFACE EIGEN_NO_CUDA EIGEN_NO_HIP)
 target_compile_options(skein_compiler_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wshadow;-Wno-psabi>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
@@ -20,5 +24,9 @@ if(SKEIN_SANITIZE)
                                                           -fno-omit-frame-pointer)
   target_link_options(skein_compiler_options INTERFACE -fsanitize=address,undefined)
 endif()
-# The options are needed to build the layers, not to use them installed.
-install(TARGETS skein_compiler_options EXPORT skeinTargets)
+
+# What the pair loops need to vectorize and to fuse multiplications with additions. Never -ffast-math: split single
+# precision differences depend on the order in which they are written, and NaN must stay NaN.
+add_library(skein_loop_options INTERFACE)
+target_compile_options(skein_loop_options INTERFACE
+  $<$<CXX_COMPILER_ID:GNU,Clang>:-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast>)

@@ -13,24 +13,6 @@ function(skein_find package name)
   skein_require("${${name}_FOUND}" ${name} ${package})
 endfunction()
 
-# For a library that comes without CMake files: defines the imported target skein::<name>.
-function(skein_find_library package name header)
-  find_path(SKEIN_${name}_INCLUDE_DIR ${header})
-  find_library(SKEIN_${name}_LIBRARY ${name})
-  mark_as_advanced(SKEIN_${name}_INCLUDE_DIR SKEIN_${name}_LIBRARY)
-  set(found FALSE)
-  if(SKEIN_${name}_INCLUDE_DIR AND SKEIN_${name}_LIBRARY)
-    set(found TRUE)
-  endif()
-  skein_require(${found} ${name} ${package})
-  if(NOT TARGET skein::${name})
-    add_library(skein::${name} UNKNOWN IMPORTED)
-    set_target_properties(
-      skein::${name} PROPERTIES IMPORTED_LOCATION "${SKEIN_${name}_LIBRARY}"
-                                INTERFACE_INCLUDE_DIRECTORIES "${SKEIN_${name}_INCLUDE_DIR}")
-  endif()
-endfunction()
-
 # Stops when the Kokkos found is too old, too new or lacks the backend that the preset is for.
 function(skein_check_kokkos)
   set(this "Kokkos ${Kokkos_VERSION} in ${Kokkos_DIR}")
@@ -43,9 +25,13 @@ function(skein_check_kokkos)
     if(Kokkos_VERSION VERSION_LESS 4.1 AND NOT CMAKE_CXX_COMPILER_ID MATCHES Clang)
       message(FATAL_ERROR "${this} takes no C++20 with nvcc: use Kokkos 4.1 or newer, with CUDA 13 4.7 or newer.")
     endif()
-    # 4.6 passes: built with CUDA 13, it was patched (cudaMemPrefetchAsync and cudaGraphAddDependencies changed).
+    # 4.6 passes: built with CUDA 13, it was patched. There cudaMemPrefetchAsync and cudaMemAdvise take a
+    # cudaMemLocation, and cudaGraphAddDependencies takes the data of its edges.
     if(CUDAToolkit_VERSION VERSION_GREATER_EQUAL 13 AND Kokkos_VERSION VERSION_LESS 4.6)
-      message(FATAL_ERROR "${this} does not know CUDA ${CUDAToolkit_VERSION}: use Kokkos 4.7 or newer.")
+      message(FATAL_ERROR
+        "${this} does not know CUDA ${CUDAToolkit_VERSION}, in which three functions changed (cudaMemPrefetchAsync, "
+        "cudaMemAdvise, cudaGraphAddDependencies): use Kokkos 4.7 or newer. The default_arch of an older nvcc_wrapper, "
+        "sm_70, is unknown to CUDA 13, too: set one with NVCC_WRAPPER_DEFAULT_ARCH or Kokkos' own options.")
     endif()
   endif()
 
@@ -87,15 +73,14 @@ endif()
 skein_check_kokkos()
 
 skein_find(libeigen3-dev Eigen3 CONFIG)
-# Only the host uses it; its device annotations make nvcc warn.
-target_compile_definitions(Eigen3::Eigen INTERFACE EIGEN_NO_CUDA EIGEN_NO_HIP)
-enable_language(C) # CMake's FindHDF5 compiles a C program
-skein_find(libhdf5-dev HDF5 COMPONENTS C)
 skein_find(libcli11-dev CLI11 CONFIG)
 skein_find(libtomlplusplus-dev tomlplusplus CONFIG)
 skein_find(libfmt-dev fmt CONFIG)
-skein_find(libspdlog-dev spdlog CONFIG)
-skein_find_library(libxxhash-dev xxhash xxhash.h)
+include(${CMAKE_CURRENT_LIST_DIR}/FindLibrary.cmake)
+skein_find_hdf5()
+skein_require("${skein_hdf5_FOUND}" HDF5 libhdf5-dev)
+skein_find_xxhash()
+skein_require("${skein_xxhash_FOUND}" xxHash libxxhash-dev)
 skein_find_python()
 
 if(SKEIN_BUILD_TESTS)

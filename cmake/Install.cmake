@@ -1,15 +1,46 @@
-include(GNUInstallDirs)
+# The program, and the layers below it as a package with one component per layer: one export file each, so that a user of
+# skein::fibers needs nothing of what skein::io links.
 include(CMakePackageConfigHelpers)
 
-get_property(layer_targets GLOBAL PROPERTY SKEIN_LAYER_TARGETS)
-install(TARGETS ${layer_targets} EXPORT skeinTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS skein RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
-install(EXPORT skeinTargets NAMESPACE skein:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
+set(SKEIN_COMPONENTS "")
+set(SKEIN_COMPONENT_TABLE "")
+get_property(layers GLOBAL PROPERTY SKEIN_LAYERS)
+foreach(layer IN LISTS layers)
+  foreach(property IN ITEMS PROGRAM PUBLIC PRIVATE PACKAGES)
+    get_property(layer_${property} GLOBAL PROPERTY SKEIN_LAYER_${layer}_${property})
+  endforeach()
+  if(layer_PROGRAM)
+    continue()
+  endif()
+  install(TARGETS skein_${layer} EXPORT skein_${layer} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT skein_${layer} NAMESPACE skein:: DESTINATION ${package_folder} FILE skein_${layer}.cmake)
+  list(APPEND SKEIN_COMPONENTS ${layer})
+  # All that stand below, not only those that the rules name.
+  set(below_${layer} ${layer_PUBLIC} ${layer_PRIVATE})
+  foreach(other IN LISTS layer_PUBLIC layer_PRIVATE)
+    list(APPEND below_${layer} ${below_${other}})
+  endforeach()
+  list(REMOVE_DUPLICATES below_${layer})
+  # kokkos of Kokkos::kokkos, xxhash of skein::xxhash
+  list(TRANSFORM layer_PACKAGES REPLACE ".*::" "")
+  list(REMOVE_DUPLICATES layer_PACKAGES)
+  string(APPEND SKEIN_COMPONENT_TABLE "set(skein_${layer}_layers ${below_${layer}})\n"
+                                      "set(skein_${layer}_packages ${layer_PACKAGES})\n")
+endforeach()
+
 configure_package_config_file(cmake/skeinConfig.cmake.in ${CMAKE_BINARY_DIR}/skeinConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
+  INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES cmake/Dependencies.cmake ${CMAKE_BINARY_DIR}/skeinConfig.cmake ${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
+install(FILES cmake/FindLibrary.cmake ${CMAKE_BINARY_DIR}/skeinConfig.cmake ${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake
+  DESTINATION ${package_folder})
+
+if(SKEIN_NATIVE)
+  install(CODE [[message(WARNING "This skein is compiled for this machine's processor (-march=native); on others it may "
+    "stop with an illegal instruction. Configure with -DSKEIN_NATIVE=OFF or --preset release for one that runs on all.")]])
+endif()

@@ -1,38 +1,84 @@
 # One static library per layer, linked to the layers it may use and to nothing else.
 
 function(skein_layer name)
-  cmake_parse_arguments(layer "" "" "PUBLIC;PRIVATE;EXTERNAL" ${ARGN})
-  set_property(GLOBAL PROPERTY SKEIN_LAYER_${name}_PUBLIC "${layer_PUBLIC}")
-  set_property(GLOBAL PROPERTY SKEIN_LAYER_${name}_PRIVATE "${layer_PRIVATE}")
+  cmake_parse_arguments(layer "HOST;PROGRAM" "" "PUBLIC;PRIVATE;EXTERNAL" ${ARGN})
+  foreach(property IN ITEMS HOST PROGRAM PUBLIC PRIVATE)
+    set_property(GLOBAL PROPERTY SKEIN_LAYER_${name}_${property} "${layer_${property}}")
+  endforeach()
   set_property(GLOBAL APPEND PROPERTY SKEIN_LAYERS ${name})
 endfunction()
 include(${CMAKE_CURRENT_LIST_DIR}/LayerRules.cmake)
 
-# skein_add_layer(<name> FILES files... [LIBRARIES third-party targets...] [PUBLIC_LIBRARIES ...])
-function(skein_add_layer name)
-  cmake_parse_arguments(arg "" "" "FILES;LIBRARIES;PUBLIC_LIBRARIES" ${ARGN})
-  get_property(public_layers GLOBAL PROPERTY SKEIN_LAYER_${name}_PUBLIC)
-  get_property(private_layers GLOBAL PROPERTY SKEIN_LAYER_${name}_PRIVATE)
-  add_library(skein_${name} STATIC ${arg_FILES})
-  add_library(skein::${name} ALIAS skein_${name})
-  set_target_properties(skein_${name} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(skein_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
-                                                  $<INSTALL_INTERFACE:include>)
-  foreach(layer IN LISTS public_layers)
-    target_link_libraries(skein_${name} PUBLIC skein_${layer})
+# Writes down, for tests/house, which compiler is to have which source.
+function(skein_note_sources compiler)
+  foreach(file IN LISTS ARGN)
+    get_filename_component(path ${file} ABSOLUTE)
+    set_property(GLOBAL APPEND_STRING PROPERTY SKEIN_SOURCES_BY_COMPILER "${compiler} ${path}\n")
   endforeach()
-  foreach(layer IN LISTS private_layers)
-    target_link_libraries(skein_${name} PRIVATE skein_${layer})
-  endforeach()
-  target_link_libraries(skein_${name} PUBLIC ${arg_PUBLIC_LIBRARIES} PRIVATE skein_compiler_options ${arg_LIBRARIES})
-  set_property(GLOBAL APPEND PROPERTY SKEIN_LAYER_TARGETS skein_${name})
 endfunction()
 
-# What the pair loops need to vectorize and to fuse multiplications with additions. Never -ffast-math: split single
-# precision differences depend on the order in which they are written, and NaN must stay NaN.
-function(skein_compile_as_kernels)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS
-    "$<$<CXX_COMPILER_ID:GNU,Clang>:-O3;-fno-math-errno;-fno-trapping-math;-ffp-contract=fast>")
+# In a build with nvcc these sources go to the host's compiler alone: nvcc is slow, stumbles over toml++'s templates, and
+# has nothing to do where no header of Kokkos is included.
+function(skein_compile_on_host)
+  skein_note_sources(host ${ARGN})
+  if(ARGN AND CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "--host-only")
+  endif()
+endfunction()
+
+# What all targets of a layer have in common: a library and, where it has pair loops, the objects of these.
+function(skein_set_up_layer target name)
+  foreach(property IN ITEMS HOST PUBLIC PRIVATE)
+    get_property(layer_${property} GLOBAL PROPERTY SKEIN_LAYER_${name}_${property})
+  endforeach()
+  list(TRANSFORM layer_PUBLIC PREPEND skein_)
+  list(TRANSFORM layer_PRIVATE PREPEND skein_)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${layer_PUBLIC} ${arg_PUBLIC_LIBRARIES}
+                                  PRIVATE ${layer_PRIVATE} ${arg_LIBRARIES} fmt::fmt)
+  foreach(header_target IN ITEMS skein_compiler_options ${arg_HEADERS})
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:${header_target}>)
+  endforeach()
+endfunction()
+
+# skein_add_layer(<name> [FILES sources...] [KERNEL_FILES pair loops...] [HOST_FILES sources that do not see Kokkos...]
+#                 [LIBRARIES third-party targets that users must link, too...]
+#                 [PUBLIC_LIBRARIES ... whose headers they include, too...] [HEADERS header-only targets of its sources...])
+# Every layer links fmt, with which errors are written. In a HOST layer no source sees Kokkos; tests/house holds HOST and
+# HOST_FILES to what is included.
+function(skein_add_layer name)
+  cmake_parse_arguments(arg "" "" "FILES;KERNEL_FILES;HOST_FILES;LIBRARIES;PUBLIC_LIBRARIES;HEADERS" ${ARGN})
+  add_library(skein_${name} STATIC ${arg_FILES} ${arg_HOST_FILES})
+  add_library(skein::${name} ALIAS skein_${name})
+  set_target_properties(skein_${name} PROPERTIES EXPORT_NAME ${name})
+  skein_set_up_layer(skein_${name} ${name})
+  get_property(is_host GLOBAL PROPERTY SKEIN_LAYER_${name}_HOST)
+  get_property(is_program GLOBAL PROPERTY SKEIN_LAYER_${name}_PROGRAM)
+  if(is_host)
+    skein_compile_on_host(${arg_FILES})
+  else()
+    skein_compile_on_host(${arg_HOST_FILES})
+    skein_note_sources(device ${arg_FILES} ${arg_KERNEL_FILES})
+  endif()
+  # The program's layers include no Kokkos, but get its options (-fopenmp) from those below.
+  if(is_host AND NOT is_program)
+    skein_precompile(skein_${name} skein_text_headers)
+  else()
+    skein_precompile(skein_${name} skein_kokkos_headers)
+  endif()
+  if(arg_KERNEL_FILES)
+    add_library(skein_${name}_loops OBJECT ${arg_KERNEL_FILES})
+    skein_set_up_layer(skein_${name}_loops ${name})
+    target_link_libraries(skein_${name}_loops PRIVATE skein_loop_options)
+    target_include_directories(skein_${name}_loops PRIVATE $<TARGET_PROPERTY:skein_${name},INCLUDE_DIRECTORIES>)
+    skein_precompile(skein_${name}_loops skein_loop_headers)
+    target_sources(skein_${name} PRIVATE $<TARGET_OBJECTS:skein_${name}_loops>)
+  endif()
+  set(packages ${arg_PUBLIC_LIBRARIES} ${arg_LIBRARIES} fmt::fmt)
+  set_property(GLOBAL PROPERTY SKEIN_LAYER_${name}_PACKAGES "${packages}")
 endfunction()
 
 foreach(layer IN ITEMS core scene fibers arrays)
@@ -42,3 +88,6 @@ add_subdirectory(kernels)
 foreach(layer IN ITEMS fmm physics solvers dynamics io analysis runs studies cli)
   add_subdirectory(src/${layer})
 endforeach()
+
+get_property(sources GLOBAL PROPERTY SKEIN_SOURCES_BY_COMPILER)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/sources_by_compiler.txt CONTENT "${sources}")

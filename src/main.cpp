@@ -1,6 +1,6 @@
 #include "cli/cli.hpp"
 #include "cli/thread_waiting.hpp"
-#include "runs/fault_injection.hpp"
+#include "runs/test_order.hpp"
 
 int main(int argc, char** argv) {
   skein::limit_thread_spinning(argv);

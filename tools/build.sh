@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# Sets up, configures and builds one preset: tools/build.sh [openmp|serial|sanitize|cuda|hip] [options for cmake]
+# Sets up, configures and builds one preset:
+#   tools/build.sh [openmp|serial|release|sanitize|cuda|hip] [--target=NAME...] [options for cmake]
+# Without a target everything is built, tests and benches too.
 # With SKEIN_SETUP_OPTIONS in the environment, tools/setup.sh is given those too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,12 +13,23 @@ if (($#)) && [[ $1 != -* ]]; then
 fi
 case $preset in
   openmp | serial | cuda | hip) backend=$preset ;;
+  release) backend=openmp ;;
   sanitize) backend=serial ;;
   *)
-    echo "build.sh: unknown preset '$preset'; known are openmp, serial, sanitize, cuda and hip." >&2
+    echo "build.sh: unknown preset '$preset'; known are openmp, serial, release, sanitize, cuda and hip." >&2
     exit 1
     ;;
 esac
+
+targets=()
+options=()
+while (($#)); do
+  case $1 in
+    --target=*) targets+=(--target "${1#*=}") ;;
+    *) options+=("$1") ;;
+  esac
+  shift
+done
 
 prefix=$(tools/setup.sh --backend "$backend" ${SKEIN_SETUP_OPTIONS:+$SKEIN_SETUP_OPTIONS} --print-kokkos)
 export SKEIN_KOKKOS_PREFIX=$prefix
@@ -29,5 +42,5 @@ if command -v ccache >/dev/null && [[ ! -v CMAKE_CXX_COMPILER_LAUNCHER ]]; then
 fi
 
 # A cached Kokkos_DIR would outlive a change of prefix.
-cmake --preset "$preset" -U Kokkos_DIR "$@"
-cmake --build --preset "$preset"
+cmake --preset "$preset" -U Kokkos_DIR "${options[@]}"
+cmake --build --preset "$preset" "${targets[@]}"

@@ -16,7 +16,7 @@ timed() {
   times+=("$(awk -v t0="$start" -v t1="$EPOCHREALTIME" -v l="$label" 'BEGIN { printf "%-10s %7.1f s", l, t1 - t0 }')")
 }
 
-timed build tools/build.sh openmp
+timed build tools/build.sh openmp --target=skein
 timed simulate build/openmp/bin/skein run "$scene" -o "$run" --overwrite
 timed plot build/openmp/bin/skein plot "$run"
 

@@ -6,7 +6,7 @@ packages=(
   # build
   g++ cmake ninja-build make git ccache
   # libraries
-  libeigen3-dev libhdf5-dev libopenmpi-dev libcli11-dev libtomlplusplus-dev libfmt-dev libspdlog-dev libxxhash-dev
+  libeigen3-dev libhdf5-dev libopenmpi-dev libcli11-dev libtomlplusplus-dev libfmt-dev libxxhash-dev
   # tests and benchmarks
   libgtest-dev librapidcheck-dev libbenchmark-dev
   # plots, and checks of the files written
@@ -14,8 +14,9 @@ packages=(
   # the way to Kokkos' source
   dpkg-dev xz-utils
 )
-# What only running the tests needs; ParaView brings VTK with its XDMF readers, which python3-vtk9 lacks.
-test_packages=(python3-paraview strace)
+# What only running the tests needs; ParaView brings VTK with its XDMF readers, which python3-vtk9 lacks. Other versions of
+# clang-format format otherwise.
+test_packages=(python3-paraview strace clang-format-14 clang-tidy-14)
 fuzzing_packages=(clang-14 libclang-rt-14-dev)
 movie_packages=(ffmpeg)
 
@@ -29,7 +30,7 @@ built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler.
 
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
-  --with-tests     also install what only running the tests needs (ParaView, strace)
+  --with-tests     also install what only running the tests needs (ParaView, strace, clang-format and clang-tidy 14)
   --with-fuzzing   also install clang 14 with libFuzzer, which only tools/torture.sh needs
   --with-movies    also install ffmpeg, which only `skein movie` needs
   --print-kokkos   print nothing but Kokkos' prefix on stdout; messages go to stderr
@@ -208,8 +209,15 @@ write_source_entries() {
 
 # Leaves Kokkos' source tree in $scratch/kokkos. Of the source package trilinos only the upstream archive is fetched,
 # with package lists of our own beside the system's, and only Kokkos is unpacked.
+#
+# It is kept for other backends and compilers, some ten MB: the download takes longer than the build.
 fetch_kokkos_source() {
-  local apt=$scratch/apt archive
+  local apt=$scratch/apt archive kept=$cache/kokkos-source
+  if [[ -d $kept ]]; then
+    say "Kokkos: the source fetched before is used"
+    cp -r "$kept" "$scratch/kokkos"
+    return
+  fi
   mkdir -p "$apt"/{entries,lists/partial,cache/archives/partial,download} "$scratch/kokkos"
   write_source_entries "$apt/entries"
   if ((EUID == 0)) && id _apt >/dev/null 2>&1; then
@@ -228,6 +236,10 @@ fetch_kokkos_source() {
   [[ -f $archive ]] || fail "the source package trilinos came without its upstream archive."
   tar -xf "$archive" -C "$scratch/kokkos" --strip-components=3 --wildcards '*/packages/kokkos'
   rm -rf "$apt"
+  mkdir -p "$cache"
+  staging=$(mktemp -d "$cache/unfinished.XXXXXX")
+  cp -r "$scratch/kokkos/." "$staging"
+  mv -T "$staging" "$kept" 2>/dev/null || rm -rf "$staging"
 }
 
 # Builds into a temporary name beside the final one: a cache entry is whole or absent.

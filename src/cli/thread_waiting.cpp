@@ -1,10 +1,8 @@
 #include "cli/thread_waiting.hpp"
 
-#include <skein/arrays/portable.hpp>
-
 #include <cstdlib>
 
-#if defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && defined(KOKKOS_ENABLE_OPENMP)
+#if defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && defined(SKEIN_HAS_OPENMP)
 #define SKEIN_RESTARTS_FOR_OPENMP
 #include <omp.h>
 #include <sched.h>

@@ -9,9 +9,8 @@
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
-#include "runs/fault_injection.hpp"
 #include "runs/run_control.hpp"
-#include "runs/simulation.hpp"
+#include "runs/simulate.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -67,11 +66,8 @@ int resume_run(const ResumeOptions& options) {
   const Runtime runtime(options.threads);
   RunControl control(options.max_walltime);
   TerminalListener listener(options.quiet);
-  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
-                        read_fault_hooks());
-  simulation.say(what_happened + describe_point(point, scene));
-  simulation.introduce();
-  return static_cast<int>(simulation.run());
+  return static_cast<int>(simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
+                                   what_happened + describe_point(point, scene)));
 }
 
 }  // namespace

@@ -8,11 +8,9 @@
 
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
-#include "runs/evaluation_time.hpp"
-#include "runs/fault_injection.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/run_control.hpp"
-#include "runs/simulation.hpp"
+#include "runs/simulate.hpp"
 
 #include <fmt/format.h>
 
@@ -48,9 +46,7 @@ int run_scene(const RunOptions& options) {
   std::optional<RunLock> lock;
   const RunFolder folder = make_folder(options, write_scene(reading.config), lock);
   TerminalListener listener(options.quiet);
-  Simulation simulation(reading.config, folder, nullptr, control, listener, read_fault_hooks());
-  simulation.introduce();
-  return static_cast<int>(simulation.run());
+  return static_cast<int>(simulate(reading.config, folder, nullptr, control, listener));
 }
 
 }  // namespace skein

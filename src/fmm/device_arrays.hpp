@@ -23,20 +23,28 @@ void extend(View& view, const std::size_t n) {
   if (view.extent(0) < n) Kokkos::resize(view, n + n / 2);
 }
 
+/// What scan_counts does at one entry. No lambda: in a template of a header the device's compiler may not find it
+/// again.
+template <class Space>
+struct ScanCount {
+  Kokkos::View<int*, Space> count;
+  int end, base;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i, int& sum, const bool is_final) const {
+    const int here = i < end ? count(i) : 0;
+    if (is_final) count(i) = base + sum;
+    sum += here;
+  }
+};
+
 /// count(i) <- base + the counts of begin .. i - 1, for begin <= i <= end: entry `end` exists and is overwritten.
 /// @return base + all counts; waits for the device
 template <class Space>
 int scan_counts(const Space& space, const Kokkos::View<int*, Space>& count, const int begin, const int end,
                 const int base) {
   int total = 0;
-  Kokkos::parallel_scan(
-      "skein::scan_counts", Kokkos::RangePolicy<Space>(space, begin, end + 1),
-      KOKKOS_LAMBDA(const int i, int& sum, const bool is_final) {
-        const int here = i < end ? count(i) : 0;
-        if (is_final) count(i) = base + sum;
-        sum += here;
-      },
-      total);
+  Kokkos::parallel_scan("skein::scan_counts", Kokkos::RangePolicy<Space>(space, begin, end + 1),
+                        ScanCount<Space>{count, end, base}, total);
   return base + total;
 }
 

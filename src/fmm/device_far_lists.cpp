@@ -52,8 +52,8 @@ template <class Space>
 void build_touching(const Space& space, DeviceOctree<Space>& tree) {
   auto& lists = tree.touching;
   const auto n_first = static_cast<std::size_t>(tree.n_boxes()) + 1;
-  require_extent(lists.first, n_first, "touching_first");
-  require_extent(tree.count, n_first, "box_count");
+  require_extent(lists.first, n_first, "skein::device_far_lists::touching_first");
+  require_extent(tree.count, n_first, "skein::device_far_lists::box_count");
   Kokkos::deep_copy(space, lists.first, 0);
   lists.n_entries = 0;
   const auto count = tree.count;
@@ -85,9 +85,9 @@ template <class Space>
 void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sources_for_expansion) {
   const int n_boxes = tree.n_boxes();
   const auto n_first = static_cast<std::size_t>(n_boxes) + 1;
-  require_extent(tree.v_list.first, n_first, "far_first");
-  require_extent(tree.x_list.first, n_first, "coarse_first");
-  require_extent(tree.x_direct.first, n_first, "coarse_direct_first");
+  require_extent(tree.v_list.first, n_first, "skein::device_far_lists::v_first");
+  require_extent(tree.x_list.first, n_first, "skein::device_far_lists::x_first");
+  require_extent(tree.x_direct.first, n_first, "skein::device_far_lists::x_direct_first");
   for (const bool fills : {false, true}) {
     const ListSource<Space> from(tree);
     const auto far = tree.v_list;
@@ -108,9 +108,9 @@ void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sour
           }
         });
     if (fills) continue;
-    place_lists(space, tree.v_list, n_boxes, "v_list");
-    place_lists(space, tree.x_list, n_boxes, "x_list");
-    place_lists(space, tree.x_direct, n_boxes, "x_direct");
+    place_lists(space, tree.v_list, n_boxes, "skein::device_far_lists::v_list");
+    place_lists(space, tree.x_list, n_boxes, "skein::device_far_lists::x_list");
+    place_lists(space, tree.x_direct, n_boxes, "skein::device_far_lists::x_direct");
   }
   const auto pairs = tree.v_list.entries;
   Kokkos::parallel_reduce(

@@ -24,7 +24,7 @@ bool DeviceFmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chose
   if (own_velocity_.extent(0) == nodes_.target.extent(0))
     Kokkos::deep_copy(space_, own_velocity_, 0.0);
   else
-    own_velocity_ = Vectors("fmm_velocity", nodes_.target.extent(0));
+    own_velocity_ = Vectors("skein::device_fmm_evaluator::fmm_velocity", nodes_.target.extent(0));
   sort_nodes(space_, tree_, nodes_, regularized_stokeslet::scale(viscosity), sorted_);
   space_.fence();
   statistics.sort_seconds = watch.lap();
@@ -54,8 +54,8 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
   coefficients.box_size = Field::n_columns * coefficients.stride;
   const std::size_t needed =
       static_cast<std::size_t>(tree_.n_boxes()) * static_cast<std::size_t>(coefficients.box_size);
-  require_extent(coefficients.source, needed, "source_coefficients");
-  require_extent(coefficients.target, needed, "target_coefficients");
+  require_extent(coefficients.source, needed, "skein::device_fmm_evaluator::source_coefficients");
+  require_extent(coefficients.target, needed, "skein::device_fmm_evaluator::target_coefficients");
   compute_coefficients_by_teams<ExecSpace, Real, Field>(space_, tree_, sorted_, field, levels, coefficients,
                                                         team_size_);
   space_.fence();

@@ -38,18 +38,18 @@ template <class Space>
 LeafParts<Space> make_parts(const Space& space, const DeviceOctree<Space>& tree) {
   LeafParts<Space> parts;
   const int n_leaves = tree.n_target_leaves;
-  const Kokkos::View<int*, Space> first(Kokkos::view_alloc(std::string("first_part"), Kokkos::WithoutInitializing),
-                                        n_leaves + 1);
+  const Kokkos::View<int*, Space> first(
+      Kokkos::view_alloc(std::string("skein::device_leaves::first_part"), Kokkos::WithoutInitializing), n_leaves + 1);
   const auto boxes = tree.boxes;
   const auto leaves = tree.target_leaves;
   Kokkos::parallel_for(
       "skein::count_leaf_parts", Kokkos::RangePolicy<Space>(space, 0, n_leaves),
       KOKKOS_LAMBDA(const int i) { first(i) = math::ceil_div(boxes(leaves(i)).targets.count, part_targets); });
   parts.n = scan_counts(space, first, 0, n_leaves, 0);
-  parts.leaf =
-      Kokkos::View<int*, Space>(Kokkos::view_alloc(std::string("part_leaf"), Kokkos::WithoutInitializing), parts.n);
-  parts.place =
-      Kokkos::View<int*, Space>(Kokkos::view_alloc(std::string("part_place"), Kokkos::WithoutInitializing), parts.n);
+  parts.leaf = Kokkos::View<int*, Space>(
+      Kokkos::view_alloc(std::string("skein::device_leaves::part_leaf"), Kokkos::WithoutInitializing), parts.n);
+  parts.place = Kokkos::View<int*, Space>(
+      Kokkos::view_alloc(std::string("skein::device_leaves::part_place"), Kokkos::WithoutInitializing), parts.n);
   const auto leaf = parts.leaf, place = parts.place;
   Kokkos::parallel_for(
       "skein::list_leaf_parts", Kokkos::RangePolicy<Space>(space, 0, n_leaves), KOKKOS_LAMBDA(const int i) {

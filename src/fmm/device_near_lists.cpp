@@ -78,7 +78,7 @@ KOKKOS_INLINE_FUNCTION void list_near(const ListSource<Space>& from, const int l
 template <class Space>
 void find_target_leaves(const Space& space, DeviceOctree<Space>& tree) {
   const int n_boxes = tree.n_boxes();
-  require_extent(tree.count, static_cast<std::size_t>(n_boxes) + 1, "box_count");
+  require_extent(tree.count, static_cast<std::size_t>(n_boxes) + 1, "skein::device_near_lists::box_count");
   const auto place = tree.count;
   const auto boxes = tree.boxes;
   int coarsest = 0;
@@ -92,7 +92,8 @@ void find_target_leaves(const Space& space, DeviceOctree<Space>& tree) {
       Kokkos::Min<int>(coarsest));
   tree.n_target_leaves = scan_counts(space, tree.count, 0, n_boxes, 0);
   tree.largest_leaf = tree.n_target_leaves > 0 ? tree.half_width(coarsest) : 0.0;
-  require_extent(tree.target_leaves, static_cast<std::size_t>(tree.n_target_leaves), "target_leaves");
+  require_extent(tree.target_leaves, static_cast<std::size_t>(tree.n_target_leaves),
+                 "skein::device_near_lists::target_leaves");
   const auto leaves = tree.target_leaves;
   Kokkos::parallel_for(
       "skein::list_target_leaves", Kokkos::RangePolicy<Space>(space, 0, n_boxes), KOKKOS_LAMBDA(const int b) {
@@ -104,9 +105,9 @@ template <class Space>
 void build_near(const Space& space, DeviceOctree<Space>& tree, const int min_sources_for_expansion) {
   const int n_leaves = tree.n_target_leaves;
   const auto n_first = static_cast<std::size_t>(n_leaves) + 1;
-  require_extent(tree.u_list.first, n_first, "near_first");
-  require_extent(tree.w_list.first, n_first, "fine_first");
-  require_extent(tree.near_end, n_first, "near_end");
+  require_extent(tree.u_list.first, n_first, "skein::device_near_lists::u_first");
+  require_extent(tree.w_list.first, n_first, "skein::device_near_lists::w_first");
+  require_extent(tree.near_end, n_first, "skein::device_near_lists::near_end");
   const ListSource<Space> from(tree);
   const auto leaves = tree.target_leaves;
   const auto near_end = tree.near_end;
@@ -137,8 +138,8 @@ void build_near(const Space& space, DeviceOctree<Space>& tree, const int min_sou
         n_pairs);
     tree.n_near_pairs = static_cast<double>(n_pairs);
     if (fills) continue;
-    place_lists(space, tree.u_list, n_leaves, "u_list");
-    place_lists(space, tree.w_list, n_leaves, "w_list");
+    place_lists(space, tree.u_list, n_leaves, "skein::device_near_lists::u_list");
+    place_lists(space, tree.w_list, n_leaves, "skein::device_near_lists::w_list");
   }
 }
 

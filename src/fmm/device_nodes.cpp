@@ -13,13 +13,13 @@ void sort_nodes(const Space& space, const DeviceOctree<Space>& tree, const Unsor
                 const double scale, DeviceNodes<Space>& sorted) {
   const auto n_sources = static_cast<std::size_t>(tree.n_sources), n_targets = static_cast<std::size_t>(tree.n_targets);
   if (sorted.target.data() == sorted.position.data()) sorted.target = {};
-  require_extent(sorted.position, n_sources, "sorted_position");
-  require_extent(sorted.force, n_sources, "sorted_force");
-  require_extent(sorted.blob, n_sources, "sorted_blob");
+  require_extent(sorted.position, n_sources, "skein::device_nodes::sorted_position");
+  require_extent(sorted.force, n_sources, "skein::device_nodes::sorted_force");
+  require_extent(sorted.blob, n_sources, "skein::device_nodes::sorted_blob");
   if (tree.same_nodes)
     sorted.target = sorted.position;
   else
-    require_extent(sorted.target, n_targets, "sorted_target");
+    require_extent(sorted.target, n_targets, "skein::device_nodes::sorted_target");
   const UnsortedNodes<Space> from = nodes;
   const DeviceNodes<Space> to = sorted;
   const auto source_order = tree.source_order(), target_order = tree.target_order();

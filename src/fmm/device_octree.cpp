@@ -52,7 +52,7 @@ SampledCells sample_cells(const Space& space, const Nodes<Space>& nodes, const K
   keyed.require(static_cast<std::size_t>(cells.n_keys));
   make_keys<Space>(space, nodes, key_of, stride, keyed);
   sort_on_device(space, keyed, cells.n_keys, 3 * max_key_depth, memory);
-  const Kokkos::View<int*, Space> n_new("sampled_cells", max_key_depth + 1);
+  const Kokkos::View<int*, Space> n_new("skein::device_octree::sampled_cells", max_key_depth + 1);
   const auto key = keyed.key;
   Kokkos::parallel_for(
       "skein::sample_cells", Kokkos::RangePolicy<Space>(space, 1, math::larger(1, cells.n_keys)),
@@ -125,7 +125,7 @@ void split_level(const Space& space, DeviceOctree<Space>& tree, const int level)
   const int shift = 3 * (tree.cube.max_depth - level - 1), split_above = tree.cube.split_above(level);
   const bool same_nodes = tree.same_nodes;
   const auto source_key = tree.sources.key, target_key = same_nodes ? tree.sources.key : tree.targets.key;
-  require_extent(tree.count, static_cast<std::size_t>(parents.count) + 1, "box_count");
+  require_extent(tree.count, static_cast<std::size_t>(parents.count) + 1, "skein::device_octree::box_count");
   const auto count = tree.count;
   const auto parent_boxes = tree.boxes;
   Kokkos::parallel_for(

@@ -15,8 +15,8 @@ const Real* DeviceOperators<Space, Real>::copy_array(const Array& array, Copies&
   if (kept != copies_.end()) return used.insert(*kept).first->second.device.data();
   // Arrays of columns, one after the other.
   const Kokkos::View<const Real*, Kokkos::HostSpace, Kokkos::MemoryUnmanaged> entries(array.data(), array.size());
-  const Kokkos::View<Real*, Space> device(Kokkos::view_alloc(std::string("operator"), Kokkos::WithoutInitializing),
-                                          array.size());
+  const Kokkos::View<Real*, Space> device(
+      Kokkos::view_alloc(std::string("skein::device_operators::operator"), Kokkos::WithoutInitializing), array.size());
   Kokkos::deep_copy(device, entries);
   return used.emplace(array.data(), Copy{std::make_shared<const Array>(array), device}).first->second.device.data();
 }
@@ -55,7 +55,7 @@ template <class Space, class Real>
 DeviceLevels<Space, Real> DeviceOperators<Space, Real>::require(const std::vector<const OperatorSet<Real>*>& levels) {
   Copies used;
   DeviceLevels<Space, Real> result;
-  const Kokkos::View<DeviceOperatorSet<Real>*, Space> sets("operator_sets", levels.size());
+  const Kokkos::View<DeviceOperatorSet<Real>*, Space> sets("skein::device_operators::operator_sets", levels.size());
   const auto host = Kokkos::create_mirror_view(sets);
   for (std::size_t level = 0; level < levels.size(); ++level) {
     if (levels[level] == nullptr) continue;

@@ -59,7 +59,8 @@ void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, const int n, 
                     SortSpace<Space>& memory) {
   if (is_sorted(space, sorted, n)) return;
   memory.spare.require(static_cast<std::size_t>(n));
-  require_extent(memory.place, static_cast<std::size_t>(n_digits * math::ceil_div(n, chunk_keys) + 1), "sort_places");
+  require_extent(memory.place, static_cast<std::size_t>(n_digits * math::ceil_div(n, chunk_keys) + 1),
+                 "skein::device_sort::sort_places");
   for (int shift = 0; shift < n_bits; shift += digit_bits) {
     sort_pass(space, sorted, memory.spare, n, shift, memory.place);
     std::swap(sorted, memory.spare);

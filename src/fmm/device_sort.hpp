@@ -13,8 +13,8 @@ struct KeyedOrder {
   Kokkos::View<int*, Space> order;
 
   void require(const std::size_t n) {
-    require_extent(key, n, "key");
-    require_extent(order, n, "order");
+    require_extent(key, n, "skein::device_sort::key");
+    require_extent(order, n, "skein::device_sort::order");
   }
   double bytes() const { return 12.0 * static_cast<double>(key.extent(0)); }
 };

@@ -4,7 +4,7 @@ namespace skein {
 
 template <class Space>
 std::vector<Vec3> read_sample(const Space& space, const ConstVectorView<Space>& vectors, const EvenSample& sample) {
-  const VectorView<Space> chosen("sample", sample.n_chosen);
+  const VectorView<Space> chosen("skein::even_sample::sample", sample.n_chosen);
   Kokkos::parallel_for(
       "skein::read_sample", Kokkos::RangePolicy<Space>(space, 0, sample.n_chosen),
       KOKKOS_LAMBDA(const int i) { store(chosen, i, load(vectors, sample.index(i))); });

@@ -32,13 +32,14 @@ void FmmEvaluator::sort_nodes(const double scale) {
   const HostNodes nodes = nodes_;
   const int n_sources = nodes.position.extent_int(0), n_targets = nodes.target.extent_int(0);
   const bool same = are_same_nodes(nodes.position, nodes.target);
-  resize(sorted_.position, n_sources, "sorted_position");
-  resize(sorted_.force, n_sources, "sorted_force");
-  if (sorted_.blob.extent_int(0) != n_sources) sorted_.blob = HostScalars("sorted_blob", n_sources);
+  resize(sorted_.position, n_sources, "skein::fmm_evaluator::sorted_position");
+  resize(sorted_.force, n_sources, "skein::fmm_evaluator::sorted_force");
+  if (sorted_.blob.extent_int(0) != n_sources)
+    sorted_.blob = HostScalars("skein::fmm_evaluator::sorted_blob", n_sources);
   if (same)
     sorted_.target = sorted_.position;
   else if (sorted_.target.data() == sorted_.position.data() || sorted_.target.extent_int(0) != n_targets)
-    sorted_.target = HostVectors("sorted_target", n_targets);
+    sorted_.target = HostVectors("skein::fmm_evaluator::sorted_target", n_targets);
   const auto sorted = sorted_;
   const auto source_order = tree_.source_order(), target_order = tree_.target_order();
   Kokkos::parallel_for("skein::sort_sources", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sources),
@@ -61,7 +62,7 @@ void FmmEvaluator::add_leaves(const Field& field, const std::vector<const Operat
                                            own_velocity_);
     return;
   }
-  resize(near_velocity_, sorted_.target.extent_int(0), "near_velocity");
+  resize(near_velocity_, sorted_.target.extent_int(0), "skein::fmm_evaluator::near_velocity");
   compute_near_velocities<Near>(sorted_, make_near_matches(tree_), near_velocity_);
   add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients,
                                          {tree_.one_way_sources(), near_velocity_}, tasks_, own_velocity_);
@@ -80,9 +81,11 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
     coefficients.source = {};  // before the new ones are allocated
     coefficients.target = {};
     coefficients.source = Kokkos::View<Real*, HostSpace>(
-        Kokkos::view_alloc(std::string("source_coefficients"), Kokkos::WithoutInitializing), needed + needed / 8);
+        Kokkos::view_alloc(std::string("skein::fmm_evaluator::source_coefficients"), Kokkos::WithoutInitializing),
+        needed + needed / 8);
     coefficients.target = Kokkos::View<Real*, HostSpace>(
-        Kokkos::view_alloc(std::string("target_coefficients"), Kokkos::WithoutInitializing), needed + needed / 8);
+        Kokkos::view_alloc(std::string("skein::fmm_evaluator::target_coefficients"), Kokkos::WithoutInitializing),
+        needed + needed / 8);
   }
   compute_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients);
   statistics.far_seconds = watch.lap();
@@ -140,7 +143,7 @@ bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, con
   if (own_velocity_.extent(0) == nodes_.target.extent(0))
     Kokkos::deep_copy(own_velocity_, 0.0);
   else
-    own_velocity_ = HostVectors("fmm_velocity", nodes_.target.extent(0));
+    own_velocity_ = HostVectors("skein::fmm_evaluator::fmm_velocity", nodes_.target.extent(0));
   sort_nodes(regularized_stokeslet::scale(viscosity));
   statistics.sort_seconds = watch.lap();
   if (plan.far_in_single)

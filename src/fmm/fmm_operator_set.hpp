@@ -2,6 +2,7 @@
 
 #include <skein/arrays/types.hpp>
 
+#include "fmm/box_surfaces.hpp"
 #include "fmm/matrix_product.hpp"
 
 namespace skein {
@@ -38,9 +39,6 @@ struct FactoredMatrix {
     last.apply(middle, first.n_rows, n, c, c_stride);
   }
 };
-
-inline constexpr double inner_surface = 1.05;  ///< half-widths: sources' equivalent surface, targets' check surface
-inline constexpr double outer_surface = 2.95;  ///< sources' check surface, targets' equivalent surface
 
 /// Boxes of levels above have no far pairs and need no coefficients.
 inline constexpr int first_far_level = 2;

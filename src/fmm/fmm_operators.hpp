@@ -1,21 +1,15 @@
 #pragma once
 
-#include <skein/fmm/fmm_plan.hpp>
-
 #include "fmm/fmm_operator_set.hpp"
-
-#include <Eigen/Dense>
+#include "fmm/surface_operators.hpp"
 
 #include <cstdint>
 #include <vector>
 
 namespace skein {
 
-/// Points of the surface of the cube |x| = 1 with `order` points per edge: 6 (order - 1)^2 + 2 in all.
-Eigen::MatrixX3d make_surface(int order);
-
 /// The operators of one far field at one ratio of blob to half-width, in double precision, and their copies as Reals
-/// for the passes. Source: Ying, Biros, Zorin (2004) for the surfaces; the factors see OperatorSet.
+/// for the passes.
 template <class Real>
 class FmmOperators {
  public:
@@ -35,25 +29,12 @@ class FmmOperators {
 
  private:
   void decompose(double cutoff);
-  Eigen::MatrixXd transfer_matrix(int index) const;
-  struct Thin {
-    Eigen::MatrixXd last, first;
-  };
-  Thin take_apart(const Eigen::MatrixXd& transfer) const;
-  /// Potentials at `to` of densities at `from`, both [n, 3].
-  Eigen::MatrixXd interaction(const Eigen::MatrixX3d& to, const Eigen::MatrixX3d& from) const;
   /// Columns or rows of planes at stride n_padded.
   PaddedMatrix<Real> with_plane_rows(const Eigen::MatrixXd& matrix) const;
   PaddedMatrix<Real> with_plane_columns(const Eigen::MatrixXd& matrix) const;
 
-  FarField far_field_;
-  double blob_;
+  SurfaceOperators algebra_;
   double transfer_tolerance_;
-  int n_components_;
-  Eigen::MatrixX3d surface_;
-  Eigen::MatrixXd inner_;   ///< V S^(-1/2): densities on the inner surface, [n_components n_surface, rank]
-  Eigen::MatrixXd outer_;   ///< U S^(-1/2): densities on the outer surface
-  Eigen::VectorXd weight_;  ///< S^(-1/2), padded rank not included
   OperatorSet<Real> set_;
 };
 

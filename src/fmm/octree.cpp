@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 
+#include "fmm/morton.hpp"
 #include "kernels/node_checks.hpp"
 
 #include <algorithm>
@@ -70,12 +71,12 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
                         Kokkos::View<std::uint64_t*, HostSpace>& key) {
     const int n = nodes.extent_int(0);
     if (order.extent_int(0) != n) {
-      order = Kokkos::View<int*, HostSpace>("order", n);
-      key = Kokkos::View<std::uint64_t*, HostSpace>("key", n);
+      order = Kokkos::View<int*, HostSpace>("skein::octree::order", n);
+      key = Kokkos::View<std::uint64_t*, HostSpace>("skein::octree::key", n);
     }
     if (spare_order_.extent_int(0) < n) {
-      spare_order_ = Kokkos::View<int*, HostSpace>("spare_order", n);
-      spare_key_ = Kokkos::View<std::uint64_t*, HostSpace>("spare_key", n);
+      spare_order_ = Kokkos::View<int*, HostSpace>("skein::octree::spare_order", n);
+      spare_key_ = Kokkos::View<std::uint64_t*, HostSpace>("skein::octree::spare_key", n);
     }
     const auto keys = key;
     const auto places = order;

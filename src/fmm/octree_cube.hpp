@@ -28,7 +28,7 @@ struct SampledCells {
 };
 
 /// Level of the largest cells that tell two different keys of the full depth apart.
-KOKKOS_INLINE_FUNCTION int separating_level(const std::uint64_t one, const std::uint64_t other) {
+SKEIN_INLINE_FUNCTION int separating_level(const std::uint64_t one, const std::uint64_t other) {
   int level = max_key_depth + 1;
   for (std::uint64_t differ = one ^ other; differ != 0; differ >>= 3) --level;
   return level;

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <skein/arrays/types.hpp>
+#include <skein/core/math.hpp>
+#include <skein/core/vec3.hpp>
 
-#include "fmm/morton.hpp"
+#include "fmm/morton_key.hpp"
 #include "kernels/index_range.hpp"
 
 // What the octrees of hosts and of devices have in common.
@@ -18,7 +19,7 @@ struct Box {
   int octant = 0;               ///< in the parent: bit c is set on the upper side of axis c
   int cell[3] = {};             ///< position in the grid of its level
   IndexRange sources, targets;  ///< in the order of the tree
-  KOKKOS_INLINE_FUNCTION bool is_leaf() const { return n_children == 0; }
+  SKEIN_INLINE_FUNCTION bool is_leaf() const { return n_children == 0; }
 };
 
 /// A pair of the V lists: boxes of one level that do not touch, while their parents do.
@@ -27,7 +28,7 @@ struct FarPair {
   signed char transfer[3] = {};  ///< source cell - target cell, -3 .. 3
 };
 
-KOKKOS_INLINE_FUNCTION FarPair make_far_pair(const int target, const int source, const Box& at, const Box& from) {
+SKEIN_INLINE_FUNCTION FarPair make_far_pair(const int target, const int source, const Box& at, const Box& from) {
   FarPair pair;
   pair.target = target;
   pair.source = source;
@@ -36,21 +37,21 @@ KOKKOS_INLINE_FUNCTION FarPair make_far_pair(const int target, const int source,
 }
 
 /// One number for a transfer vector and all its mirror images, below 64.
-KOKKOS_INLINE_FUNCTION int transfer_index(const signed char (&t)[3]) {
+SKEIN_INLINE_FUNCTION int transfer_index(const signed char (&t)[3]) {
   int index = 0;
   for (int c = 0; c < 3; ++c) index += (t[c] < 0 ? -t[c] : t[c]) << 2 * c;
   return index;
 }
 /// Which axes of a transfer vector are mirrored: bit c for axis c.
-KOKKOS_INLINE_FUNCTION int reflected_axes(const signed char (&t)[3]) {
+SKEIN_INLINE_FUNCTION int reflected_axes(const signed char (&t)[3]) {
   return (t[0] < 0) + 2 * (t[1] < 0) + 4 * (t[2] < 0);
 }
 
 /// One axis of the way from a parent's centre to a child's, in the child's half-widths: 1 or -1.
-KOKKOS_INLINE_FUNCTION int child_side(const int octant, const int axis) { return (octant >> axis & 1) != 0 ? 1 : -1; }
+SKEIN_INLINE_FUNCTION int child_side(const int octant, const int axis) { return (octant >> axis & 1) != 0 ? 1 : -1; }
 
 /// True where two boxes share a point.
-KOKKOS_INLINE_FUNCTION bool touch(const Box& a, const Box& b) {
+SKEIN_INLINE_FUNCTION bool touch(const Box& a, const Box& b) {
   const Box& coarse = a.level < b.level ? a : b;
   const Box& fine = a.level < b.level ? b : a;
   const int levels = fine.level - coarse.level;
@@ -62,8 +63,8 @@ KOKKOS_INLINE_FUNCTION bool touch(const Box& a, const Box& b) {
 }
 
 /// Cell of a coordinate; what lies outside the cube, or is not a number, goes to a cell at its rim.
-KOKKOS_INLINE_FUNCTION std::uint64_t cell_of(const double x, const double corner, const double cells_per_length,
-                                             const double n_cells) {
+SKEIN_INLINE_FUNCTION std::uint64_t cell_of(const double x, const double corner, const double cells_per_length,
+                                            const double n_cells) {
   const double cell = (x - corner) * cells_per_length;
   if (!(cell > 0.0)) return 0;
   return static_cast<std::uint64_t>(cell < n_cells ? cell : n_cells - 1.0);
@@ -74,7 +75,7 @@ struct KeyOf {
   double corner[3];
   double cells_per_length, n_cells;
   template <class Nodes>
-  KOKKOS_INLINE_FUNCTION std::uint64_t operator()(const Nodes& nodes, const int i) const {
+  SKEIN_INLINE_FUNCTION std::uint64_t operator()(const Nodes& nodes, const int i) const {
     return morton_key(cell_of(nodes(i, 0), corner[0], cells_per_length, n_cells),
                       cell_of(nodes(i, 1), corner[1], cells_per_length, n_cells),
                       cell_of(nodes(i, 2), corner[2], cells_per_length, n_cells));
@@ -89,12 +90,12 @@ struct OctreeCube {
   int aimed_depth = 0;  ///< where leaves hold about leaf_size nodes; smaller boxes are split only when they hold more
   int nodes_per_cell = 0;
 
-  KOKKOS_INLINE_FUNCTION Vec3 center(const Box& box) const {
+  SKEIN_INLINE_FUNCTION Vec3 center(const Box& box) const {
     const double side_of_box = side / static_cast<double>(1 << box.level);
     return {corner[0] + (box.cell[0] + 0.5) * side_of_box, corner[1] + (box.cell[1] + 0.5) * side_of_box,
             corner[2] + (box.cell[2] + 0.5) * side_of_box};
   }
-  KOKKOS_INLINE_FUNCTION double half_width(const int level) const {
+  SKEIN_INLINE_FUNCTION double half_width(const int level) const {
     return 0.5 * side / static_cast<double>(1 << level);
   }
   /// A box of a level is split where it holds more sources or targets: above the aimed depth more than a leaf's worth,

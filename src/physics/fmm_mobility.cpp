@@ -26,8 +26,9 @@ struct Comparison {
 
 Comparison compare(const double viscosity, const Sources& sources, const ConstVectors& target,
                    const FmmSum& approximate, const EvenSample& sample) {
-  const Vectors checked = to_device("checked_target", read_sample<ExecSpace>(ExecSpace(), target, sample));
-  const Vectors exact("checked_velocity", sample.n_chosen);
+  const Vectors checked =
+      to_device("skein::fmm_mobility::checked_target", read_sample<ExecSpace>(ExecSpace(), target, sample));
+  const Vectors exact("skein::fmm_mobility::checked_velocity", sample.n_chosen);
   DirectMobility(viscosity, Precision::in_double).add_velocity(sources, checked, exact);
   const std::vector<Vec3> got = approximate.sample(sample), wanted = to_host(exact);
   Comparison sum;

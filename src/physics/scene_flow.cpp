@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/physics/flow_summary.hpp>
 #include <skein/physics/scene_flow.hpp>
 
 #include "kernels/flow_velocity.hpp"
@@ -111,6 +112,11 @@ std::string SceneFlow::describe() const {
 
 std::unique_ptr<BackgroundFlow> make_background_flow(const std::vector<FlowConfig>& flows) {
   return std::make_unique<SceneFlow>(flows);
+}
+
+FlowSummary summarize_flow(const std::vector<FlowConfig>& flows) {
+  const SceneFlow flow(flows);
+  return {flow.typical_rate(), flow.time_scale(), flow.describe()};
 }
 
 }  // namespace skein

@@ -1,6 +1,7 @@
 #include "kernels/section_repulsion.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/physics/repulsion_range.hpp>
 #include <skein/physics/section_repulsion.hpp>
 
 #include "force_table.hpp"
@@ -72,13 +73,6 @@ void SectionRepulsion::add_moments(const std::vector<Fiber>& /*fibers*/, double 
 
 std::string SectionRepulsion::describe() const {
   return fmt::format("repulsion of strength {:g} where gaps are below {:g}", strength_, range_);
-}
-
-double find_repulsion_range(const RepulsionConfig& config, const std::vector<Fiber>& fibers) {
-  if (config.range > 0.0) return config.range;
-  double thinnest = std::numeric_limits<double>::infinity();
-  for (const Fiber& fiber : fibers) thinnest = std::min(thinnest, fiber.config.radius);
-  return thinnest;
 }
 
 void append_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {

@@ -1,16 +1,31 @@
 #include "runs/evaluation_time.hpp"
 
 #include <skein/core/stopwatch.hpp>
-#include <skein/dynamics/make_integrator.hpp>
+#include <skein/fibers/fiber.hpp>
 #include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 
-#include "runs/run_description.hpp"
+#include "runs/sum_timing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 namespace skein {
+namespace {
+
+/// Forces without a direction in common, of one size.
+std::vector<Vec3> make_forces(const std::size_t n) {
+  std::vector<Vec3> force;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto k = static_cast<double>(i);
+    force.push_back({std::cos(1.3 * k), std::sin(2.1 * k), std::cos(0.7 * k)});
+  }
+  return force;
+}
+
+}  // namespace
 
 double time_calls(const std::function<void()>& call) {
   std::vector<double> seconds;
@@ -57,13 +72,31 @@ double time_direct_sum(const ConstVectors& position, const double viscosity) {
   return seconds * ratio * ratio;
 }
 
-std::string describe_dry_run(const SceneConfig& scene) {
-  Physics physics = make_physics(scene);
-  FiberDynamics dynamics(physics);
-  const auto integrator = make_integrator(scene, physics, dynamics);
-  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
-  const EvaluationCost cost = time_evaluation(dynamics, position);
-  return describe_run(scene, physics, *integrator, cost);
+std::vector<SumTiming> time_sums(const std::vector<FiberConfig>& fibers, const double viscosity,
+                                 const double tolerance) {
+  FmmOptions options;
+  options.tolerance = tolerance;
+  FmmMobility fmm(viscosity, options);
+  DirectMobility direct(viscosity, Precision::in_double);
+  std::vector<SumTiming> timings;
+  for (const FiberConfig& config : fibers) {
+    const auto fiber = make_fibers({config});
+    const auto nodes = make_surface_nodes(fiber);
+    const Sources sources{to_device("skein::time_sums::position", nodes),
+                          to_device("skein::time_sums::force", make_forces(nodes.size())),
+                          to_device("skein::time_sums::blob", make_blobs(fiber))};
+    const Vectors velocity("skein::time_sums::velocity", nodes.size());
+    const auto time_sum = [&](Mobility& mobility) {
+      return time_calls([&] { mobility.add_velocity(sources, sources.position, velocity); });
+    };
+    SumTiming timing;
+    timing.n_nodes = static_cast<int>(nodes.size());
+    timing.direct_seconds = time_sum(direct);
+    timing.fmm_seconds = time_sum(fmm);
+    timing.fmm_error = fmm.measure_error(sources, sources.position, timing.n_nodes);
+    timings.push_back(timing);
+  }
+  return timings;
 }
 
 }  // namespace skein

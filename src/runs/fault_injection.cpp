@@ -1,11 +1,8 @@
 #include "runs/fault_injection.hpp"
 
-#include <skein/core/milestone.hpp>
+#include "runs/test_order.hpp"
 
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <string_view>
 
 namespace skein {
 namespace {
@@ -78,16 +75,6 @@ class FaultyMobility final : public Mobility {
   Fault fault_;
 };
 
-/// "name:number" of an environment variable; the number is 0 where there is none.
-std::pair<std::string, long> read_numbered(const char* variable) {
-  const char* text = std::getenv(variable);
-  if (text == nullptr) return {"", 0};
-  const std::string order = text;
-  const auto colon = order.rfind(':');
-  if (colon == std::string::npos) return {order, 1};
-  return {order.substr(0, colon), std::strtol(order.c_str() + colon + 1, nullptr, 10)};
-}
-
 }  // namespace
 
 RunHooks make_fault_hooks(const FaultOrder& order) {
@@ -102,19 +89,11 @@ RunHooks make_fault_hooks(const FaultOrder& order) {
 }
 
 RunHooks read_fault_hooks() {
-  const auto [target, step] = read_numbered("SKEIN_TEST_NAN");
+  const auto [target, step] = read_test_order("SKEIN_TEST_NAN");
   if (target == "position") return make_fault_hooks({FaultOrder::Target::position, step});
   if (target == "force") return make_fault_hooks({FaultOrder::Target::force, step});
   if (target == "velocity") return make_fault_hooks({FaultOrder::Target::velocity, step});
   return {};
-}
-
-void install_kill_order() {
-  const auto [milestone, number] = read_numbered("SKEIN_TEST_KILL");
-  if (number <= 0) return;
-  observe_milestones([milestone = milestone, n_left = number](const std::string_view name) mutable {
-    if (name == milestone && --n_left == 0) std::raise(SIGKILL);
-  });
 }
 
 }  // namespace skein

@@ -25,8 +25,4 @@ RunHooks make_fault_hooks(const FaultOrder& order);
 /// What SKEIN_TEST_NAN=<position|force|velocity>:<step> in the environment asks for; empty hooks without it.
 RunHooks read_fault_hooks();
 
-/// With SKEIN_TEST_KILL=<milestone>:<n> in the environment, the n-th milestone of that name ends the process with
-/// SIGKILL, as a power cut would.
-void install_kill_order();
-
 }  // namespace skein

@@ -60,7 +60,7 @@ std::string ModelGuard::describe() const {
   return text;
 }
 
-void ModelGuard::visit_memory(MemoryVisitor& visitor) {
+void ModelGuard::visit_memory(NumberVisitor& visitor) {
   const char* names[n_kinds] = {"guard.sharp_hook", "guard.strained_spring", "guard.contact"};
   for (int kind = 0; kind < n_kinds; ++kind) {
     visitor.integer(std::string(names[kind]) + ".steps", n_steps_[kind]);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/arrays/memory_visitor.hpp>
+#include <skein/core/number_visitor.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/io/trajectory.hpp>
 
@@ -26,7 +26,7 @@ class ModelGuard {
   /// What was met in the whole run, for its end; empty where nothing was.
   std::string describe() const;
 
-  void visit_memory(MemoryVisitor& visitor);
+  void visit_memory(NumberVisitor& visitor);
 
   static constexpr double strain_limit = 0.5;
 

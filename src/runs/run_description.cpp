@@ -8,7 +8,7 @@
 #include <skein/fibers/spring_network.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/words.hpp>
-#include <skein/solvers/rkc2.hpp>
+#include <skein/solvers/rkc2_stages.hpp>
 
 #include "runs/scene_summary.hpp"
 
@@ -41,7 +41,7 @@ double expect_evaluations(const SceneConfig& scene, const double time_scale, con
     case TimeMethod::automatic:
     case TimeMethod::rkc2:
     case TimeMethod::trbdf2:
-      return end / dt * Rkc2::stages_for(dt, Rkc2::spectral_margin * spectral_radius);
+      return end / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
   }
   throw Error(ExitCode::internal, "expect_evaluations knows no such method");
 }
@@ -98,7 +98,7 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   return layout;
 }
 
-std::string describe_run(const SceneConfig& scene, const Physics& physics, const Integrator& integrator,
+std::string describe_run(const SceneConfig& scene, const Physics& physics, const std::string& integrator,
                          const EvaluationCost& cost) {
   const double n_nodes = count_nodes(physics.fibers);
   const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
@@ -110,7 +110,7 @@ std::string describe_run(const SceneConfig& scene, const Physics& physics, const
   if (const std::string forces = physics.describe_forces(); !forces.empty())
     text += fmt::format("forces: {}\n", forces);
   text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", physics.flow->describe(),
-                      describe_choice(choose_mobility(scene), scene), integrator.describe(), scene.time.end);
+                      describe_choice(choose_mobility(scene), scene), integrator, scene.time.end);
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);

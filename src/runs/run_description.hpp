@@ -3,9 +3,8 @@
 #include <skein/io/trajectory.hpp>
 #include <skein/physics/physics.hpp>
 #include <skein/scene/scene_config.hpp>
-#include <skein/solvers/integrator.hpp>
 
-#include "runs/evaluation_time.hpp"
+#include "runs/evaluation_cost.hpp"
 
 #include <string>
 
@@ -15,7 +14,8 @@ namespace skein {
 TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text, const Physics& physics);
 
 /// A run's first lines: version, device, size, methods and why, what it will take.
-std::string describe_run(const SceneConfig& scene, const Physics& physics, const Integrator& integrator,
+/// @param integrator  as it describes itself
+std::string describe_run(const SceneConfig& scene, const Physics& physics, const std::string& integrator,
                          const EvaluationCost& cost);
 
 }  // namespace skein

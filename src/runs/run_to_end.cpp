@@ -6,9 +6,8 @@
 #include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
-#include "runs/fault_injection.hpp"
 #include "runs/run_control.hpp"
-#include "runs/simulation.hpp"
+#include "runs/simulate.hpp"
 
 #include <fmt/format.h>
 
@@ -33,10 +32,7 @@ ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& path,
   const ResumePoint point = find_resume_point(folder);
   if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) return ExitCode::done;
   RunControl control(max_walltime);
-  Simulation simulation(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
-                        read_fault_hooks());
-  simulation.introduce();
-  return simulation.run();
+  return simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener);
 }
 
 }  // namespace skein

@@ -3,8 +3,8 @@
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/spring_network.hpp>
-#include <skein/physics/background_flow.hpp>
-#include <skein/physics/section_repulsion.hpp>
+#include <skein/physics/flow_summary.hpp>
+#include <skein/physics/repulsion_range.hpp>
 
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ std::string describe_repulsion(const SceneConfig& scene, const double rate, cons
 
 std::string describe_scene(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
-  const double rate = make_background_flow(scene.flows)->typical_rate();
+  const double rate = summarize_flow(scene.flows).typical_rate;
   std::string text;
   if (!scene.title.empty()) text += scene.title + "\n";
   text += fmt::format("{} fiber{}, {} nodes\n", fibers.size(), fibers.size() == 1 ? "" : "s", count_nodes(fibers));

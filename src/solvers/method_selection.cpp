@@ -1,5 +1,5 @@
 #include <skein/solvers/method_selection.hpp>
-#include <skein/solvers/rkc2.hpp>
+#include <skein/solvers/rkc2_stages.hpp>
 #include <skein/solvers/tr_bdf2.hpp>
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
   const bool is_fixed = options.fixed_step > 0.0;
   const double largest = largest_controlled_step(options);
   const double dt = is_fixed ? options.fixed_step : rkc2_step_share * largest;
-  const double stages = Rkc2::stages_for(dt, Rkc2::spectral_margin * spectral_radius);
+  const double stages = count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
   const std::string stiffness = fmt::format(
       "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
       spectral_radius, spectral_radius * options.time_scale, dt, stages);

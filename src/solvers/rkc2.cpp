@@ -1,6 +1,7 @@
 #include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 #include <skein/solvers/rkc2.hpp>
+#include <skein/solvers/rkc2_stages.hpp>
 
 #include <fmt/format.h>
 
@@ -27,10 +28,6 @@ Rkc2::Rkc2(RightHandSide& rhs, const Rkc2Options& options, const int n_nodes)
       stage_{make_vectors("stage"), make_vectors("stage"), make_vectors("stage")},
       stage_velocity_(make_vectors("stage_velocity")) {}
 
-int Rkc2::stages_for(const double dt, const double spectral_radius) {
-  return std::max(2, 1 + static_cast<int>(std::sqrt(1.0 + 1.54 * dt * spectral_radius)));
-}
-
 void Rkc2::refresh_spectral_radius(const double time, const ConstVectors& position, const ConstVectors& velocity,
                                    const std::string& fault) {
   const bool first = is_first_step();
@@ -42,7 +39,7 @@ void Rkc2::refresh_spectral_radius(const double time, const ConstVectors& positi
     throw Error(ExitCode::numerical,
                 fmt::format("t = {:.6g}: velocities are not finite{}{}", time, what.empty() ? "" : "; ", what));
   }
-  spectral_radius_ = spectral_margin * estimate;
+  spectral_radius_ = rkc2_spectral_margin * estimate;
   steps_since_refresh_ = 0;
 }
 
@@ -72,7 +69,7 @@ double Rkc2::largest_step() const {
 
 /// One step from start_ to end_ with the velocity there, both left in the members, and its error.
 Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
-  const int stages = stages_for(dt, spectral_radius_);
+  const int stages = count_rkc2_stages(dt, spectral_radius_);
   const double s = stages;
   // Chebyshev polynomials T_j and their first two derivatives at w0, by their recurrence.
   const double w0 = 1.0 + 2.0 / (13.0 * s * s);

@@ -33,7 +33,7 @@ double StepControl::after_rejected(const double dt, const double error) {
   return dt * std::clamp(safety * factor_of(error, order_), max_cut, 0.8);
 }
 
-void StepControl::visit_memory(MemoryVisitor& visitor) {
+void StepControl::visit_memory(NumberVisitor& visitor) {
   visitor.number("step_control.last_dt", memory_.last_dt);
   visitor.number("step_control.last_error", memory_.last_error);
   visitor.count("step_control.just_rejected", memory_.just_rejected);

@@ -1,17 +1,11 @@
 #pragma once
 
+#include "runs/sum_timing.hpp"
+
 #include <filesystem>
 #include <vector>
 
 namespace skein {
-
-/// Wall times of one sum over the nodes of a straight fiber, on this machine.
-struct SumTiming {
-  int n_nodes = 0;
-  double direct_seconds = 0.0;  ///< in double precision
-  double fmm_seconds = 0.0;     ///< tree and lists included
-  double fmm_error = 0.0;       ///< relative, 2-norm over all velocities
-};
 
 /// The fast multipole method at tolerance 1e-4 beside the direct sum, from 720 nodes to the longest fiber of LaGrone,
 /// Cortez, Yan, Fauci 2019; a few seconds.

@@ -1,6 +1,7 @@
 // The L = 0.139 half turn: reference values of an independent prototype, which agree with the snapshot times of
 // LaGrone, Cortez, Yan and Fauci 2019 (Fig. "tumble", first column).
 
+#include <skein/analysis/section_centroids.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/solvers/euler.hpp>
 

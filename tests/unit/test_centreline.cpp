@@ -1,4 +1,5 @@
 #include <skein/analysis/centreline.hpp>
+#include <skein/analysis/section_centroids.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "fmm/device_octree.hpp"
+#include "fmm/morton.hpp"
 #include "fmm/octree.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/unit/stokeslet_case.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/core/vec3.hpp>
 #include <skein/fibers/fiber.hpp>
 
 #include <span>

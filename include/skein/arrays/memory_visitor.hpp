@@ -1,29 +1,16 @@
 #pragma once
 
 #include <skein/arrays/types.hpp>
+#include <skein/core/number_visitor.hpp>
 
-#include <cstdint>
 #include <string_view>
 
 namespace skein {
 
-/// Sees, by name, every number that an object's next step depends on. What saves and what restores are visitors, so
-/// that an object lists its memory once.
-class MemoryVisitor {
+/// Sees arrays, too.
+class MemoryVisitor : public NumberVisitor {
  public:
-  virtual ~MemoryVisitor() = default;
-
-  virtual void number(std::string_view name, double& value) = 0;
-  virtual void integer(std::string_view name, std::int64_t& value) = 0;
   virtual void vectors(std::string_view name, const Vectors& values) = 0;  ///< their contents
-
-  /// Smaller integers and truth values.
-  template <class Integer>
-  void count(const std::string_view name, Integer& value) {
-    auto wide = static_cast<std::int64_t>(value);
-    integer(name, wide);
-    value = static_cast<Integer>(wide);
-  }
 };
 
 }  // namespace skein

@@ -5,7 +5,6 @@
 #include <skein/arrays/types.hpp>
 #include <skein/physics/error_record.hpp>
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <skein/core/precision.hpp>
 #include <skein/fmm/fmm_plan.hpp>
-#include <skein/physics/direct_mobility.hpp>
 #include <skein/scene/scene_config.hpp>
 #include <skein/scene/scene_file.hpp>
 

@@ -51,7 +51,4 @@ class SectionRepulsion final : public Force {
   Vectors displacement_;  ///< [n_sections, 3]
 };
 
-/// The range that a scene asks for, length: 0 stands for the radius of the thinnest fiber.
-double find_repulsion_range(const RepulsionConfig& config, const std::vector<Fiber>& fibers);
-
 }  // namespace skein

@@ -21,11 +21,6 @@ class Rkc2 final : public ControlledIntegrator {
   void visit_memory(MemoryVisitor& visitor) override;
   TimeMethod method() const override { return TimeMethod::rkc2; }
 
-  /// Of the estimate of the spectral radius: sections that ovalize blow up within 20 steps of one that is too low.
-  static constexpr double spectral_margin = 1.2;
-  /// Stages for a stable step: 1 + int(sqrt(1 + 1.54 dt radius)), at least 2.
-  static int stages_for(double dt, double spectral_radius);
-
  private:
   Attempt attempt(double time, double dt) override;
   void prepare(double time, const ConstVectors& position, const ConstVectors& velocity) override;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/arrays/memory_visitor.hpp>
+#include <skein/core/number_visitor.hpp>
 
 namespace skein {
 
@@ -28,7 +28,7 @@ class StepControl {
   };
   const Memory& memory() const { return memory_; }
   void restore(const Memory& memory) { memory_ = memory; }
-  void visit_memory(MemoryVisitor& visitor);
+  void visit_memory(NumberVisitor& visitor);
 
  private:
   double order_;

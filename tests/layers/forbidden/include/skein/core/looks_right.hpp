@@ -1,1 +1,1 @@
-#include <skein/core/simd.hpp>  // forbidden: public headers never include device code
+#include <skein/arrays/types.hpp>  // forbidden: what everybody includes knows no device

@@ -1,0 +1,28 @@
+#include "runs/simulate.hpp"
+
+#include <skein/dynamics/make_integrator.hpp>
+
+#include "runs/evaluation_time.hpp"
+#include "runs/fault_injection.hpp"
+#include "runs/run_description.hpp"
+#include "runs/simulation.hpp"
+
+namespace skein {
+
+ExitCode simulate(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
+                  RunListener& listener, const std::string& first_words) {
+  Simulation simulation(scene, folder, checkpoint, control, listener, read_fault_hooks());
+  if (!first_words.empty()) simulation.say(first_words);
+  simulation.introduce();
+  return simulation.run();
+}
+
+std::string describe_dry_run(const SceneConfig& scene) {
+  Physics physics = make_physics(scene);
+  FiberDynamics dynamics(physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
+  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
+  return describe_run(scene, physics, integrator->describe(), time_evaluation(dynamics, position));
+}
+
+}  // namespace skein

@@ -1,0 +1,3 @@
+#include <skein/core/plain.hpp>
+
+#include <toml++/toml.h>
