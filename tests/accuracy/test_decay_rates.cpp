@@ -11,7 +11,8 @@
 
 // Small motions of a straight fiber in a fluid at rest: dx/dt = -M K x. With M = C C^T the rates of decay are the
 // eigenvalues of C^T K C. A section looks the same from each of its nodes, so the motions fall apart into angular
-// modes: displacements (along x, outwards, around) times exp(i m angle), m = 0 .. N_c/2.
+// modes: displacements (along x, outwards, around) times exp(i m angle), m = 0 .. N_c/2. The numbers are those of
+// tests/reference/decay_rates.py.
 
 namespace skein {
 namespace {

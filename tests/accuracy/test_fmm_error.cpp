@@ -114,7 +114,7 @@ double nearest_boxes_error(const int order, const double blob_over_half_width, c
   return result.error;
 }
 
-// Measured with another program (backward-stable pseudo-inverse, forces and places of its own): orders of magnitude.
+// Orders of magnitude: tests/reference/fmm_nearest_boxes.py has a pseudo-inverse, forces and places of its own.
 TEST(FmmError, FallsWithTheOrderAsMeasuredElsewhere) {
   const std::pair<int, double> measured[] = {{4, 2.0e-3},  {6, 4.9e-5},  {8, 1.4e-6},
                                              {10, 9.8e-8}, {12, 1.8e-9}, {14, 1.0e-10}};

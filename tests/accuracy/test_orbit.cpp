@@ -1,5 +1,5 @@
-// The L = 0.139 half turn: reference values of an independent prototype, which agree with the snapshot times of
-// LaGrone, Cortez, Yan and Fauci 2019 (Fig. "tumble", first column).
+// The L = 0.139 half turn: reference values of tests/reference/orbit.py, which agree with the snapshot times of
+// LaGrone, Cortez, Yan and Fauci 2019 (figure 2, first column).
 
 #include <skein/analysis/section_centroids.hpp>
 #include <skein/dynamics/make_integrator.hpp>

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-// A fiber held rigid: forces on the nodes that give them the velocity of a rigid body, or hold them in a flow.
+// A fiber held rigid: forces on the nodes that give them the velocity of a rigid body, or hold them in a flow. The
+// numbers are those of tests/reference/rigid_tube.py.
 
 namespace skein {
 namespace {

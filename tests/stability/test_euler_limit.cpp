@@ -26,7 +26,7 @@ TEST(SpectralRadius, IsElevenThousandAtEveryLength) {
   }
 }
 
-// 1.81e-4, and 1.53e-4 with half the blob, of an independent program.
+// 1.81e-4, and 1.53e-4 with half the blob: tests/reference/decay_rates.py.
 TEST(SpectralRadius, GivesEulersLimit) {
   for (const auto& [blob_ratio, limit] : {std::pair{1.0, 1.81e-4}, std::pair{0.5, 1.53e-4}}) {
     PaperFiber fiber(80, blob_ratio);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+// The numbers are those of tests/reference/beam_stiffness.py.
+
 namespace skein {
 namespace {
 
