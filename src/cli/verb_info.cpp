@@ -1,4 +1,4 @@
-#include <skein/core/json_text.hpp>
+#include <skein/core/json.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
@@ -28,13 +28,11 @@ void print_lines(const std::string& scene, const std::string& mobility, const Ru
 }
 
 void print_json(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
-  fmt::print(
-      "{{\n  \"title\": {},\n  \"status\": {},\n  \"scene\": {},\n  \"mobility\": {},\n  \"frames\": {},\n  \"steps\": "
-      "{},\n"
-      "  \"segments\": {},\n  \"last_time\": {}\n}}\n",
-      quote_json(summary.title), quote_json(summary.status), quote_json(scene), quote_json(mobility), summary.frames,
-      summary.steps, summary.segments,
-      std::isfinite(summary.last_time) ? fmt::format("{}", summary.last_time) : "null");
+  JsonWriter json(/*n_open_levels=*/1);
+  json.begin_object().member("title", summary.title).member("status", summary.status);
+  json.member("scene", scene).member("mobility", mobility).member("frames", summary.frames);
+  json.member("steps", summary.steps).member("segments", summary.segments).member("last_time", summary.last_time);
+  fmt::print("{}\n", json.end_object().take());
 }
 
 int print_info(const InfoOptions& options) {

@@ -1,4 +1,4 @@
-#include <skein/core/json_text.hpp>
+#include <skein/core/json.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
@@ -23,19 +23,23 @@ struct ValidateOptions {
   bool json = false;
 };
 
-std::string list_as_json(const std::vector<Problem>& problems) {
-  std::string list;
+void write_problems(JsonWriter& json, const std::string& name, const std::vector<Problem>& problems) {
+  json.key(name).begin_array();
   for (const Problem& problem : problems) {
-    list += fmt::format("{}\n    {{\"source\": {}, \"line\": {}, \"column\": {}, \"message\": {}, \"key\": {}}}",
-                        list.empty() ? "" : ",", quote_json(problem.where.source), problem.where.line,
-                        problem.where.column, quote_json(problem.message), quote_json(problem.key_doc));
+    json.begin_object().member("source", problem.where.source).member("line", problem.where.line);
+    json.member("column", problem.where.column).member("message", problem.message);
+    json.member("key", problem.key_doc).end_object();
   }
-  return list.empty() ? "[]" : "[" + list + "\n  ]";
+  json.end_array();
 }
 
 void print_json(const bool valid, const std::vector<Problem>& problems, const std::vector<Problem>& warnings) {
-  fmt::print("{{\n  \"valid\": {},\n  \"problems\": {},\n  \"warnings\": {}\n}}\n", valid, list_as_json(problems),
-             list_as_json(warnings));
+  constexpr int n_open_levels = 2;  // of the report and its lists
+  JsonWriter json(n_open_levels);
+  json.begin_object().member("valid", valid);
+  write_problems(json, "problems", problems);
+  write_problems(json, "warnings", warnings);
+  fmt::print("{}\n", json.end_object().take());
 }
 
 int validate_scene(const ValidateOptions& options) {
