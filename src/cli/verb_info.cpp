@@ -4,9 +4,9 @@
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/verbs.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,16 +46,15 @@ int print_info(const InfoOptions& options) {
 
 }  // namespace
 
-void add_info_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("info", "Say what a run folder holds");
+Verb make_info_verb() {
   const auto options = std::make_shared<InfoOptions>();
-  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
-  verb->add_flag("--json", options->json, "As JSON");
-  verb->footer(
-      "Examples:\n"
-      "  skein info tumbling\n"
-      "  skein info tumbling --json");
-  verb->callback([options, &action] { action = [options] { return print_info(*options); }; });
+  return {"info",
+          "Say what a run folder holds",
+          {make_folder_argument(&options->folder), make_flag("--json", &options->json, "As JSON")},
+          "Examples:\n"
+          "  skein info tumbling\n"
+          "  skein info tumbling --json",
+          [options] { return print_info(*options); }};
 }
 
 }  // namespace skein

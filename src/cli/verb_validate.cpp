@@ -2,12 +2,12 @@
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/verbs.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/scene_summary.hpp"
 #include "runs/terminal.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -63,20 +63,17 @@ int validate_scene(const ValidateOptions& options) {
 
 }  // namespace
 
-void add_validate_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("validate", "Look for mistakes in a scene, and print what follows from it");
+Verb make_validate_verb() {
   const auto options = std::make_shared<ValidateOptions>();
-  verb->add_option("scene", options->scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  verb->add_option("--set", options->overrides, "Override a key of the scene; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  verb->add_flag("--json", options->json, "Problems and warnings as JSON on stdout");
-  verb->footer(
-      "Examples:\n"
-      "  skein validate configs/tumbling.toml\n"
-      "  skein validate configs/tumbling.toml --set fiber.sections=113 --json\n"
-      "The exit code is 0 for a valid scene, 78 for a wrong one, 66 if there is none.");
-  verb->callback([options, &action] { action = [options] { return validate_scene(*options); }; });
+  return {"validate",
+          "Look for mistakes in a scene, and print what follows from it",
+          {make_scene_argument(&options->scene), make_overrides_option(&options->overrides),
+           make_flag("--json", &options->json, "Problems and warnings as JSON on stdout")},
+          "Examples:\n"
+          "  skein validate configs/tumbling.toml\n"
+          "  skein validate configs/tumbling.toml --set fiber.sections=113 --json\n"
+          "The exit code is 0 for a valid scene, 78 for a wrong one, 66 if there is none.",
+          [options] { return validate_scene(*options); }};
 }
 
 }  // namespace skein

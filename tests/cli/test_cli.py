@@ -205,7 +205,8 @@ class CommandLine(InFreshFolder):
             (["run", "scene.toml", "-o", "result", "--threads", "0"], "--threads"),
             (["run", "scene.toml", "-o", "result", "--threads", "two"], "--threads"),
             (["run", "scene.toml", "-o", "result", "--max-walltime", "soon"], "'soon' is no duration"),
-            (["run", "scene.toml", "-o", "result", "-q", "-v"], "excludes"),
+            (["run", "scene.toml", "-o", "result", "-q", "-v"], "unknown option '-v'"),
+            (["field", "result", "-o", "end.vti", "--frame", "1", "--time", "2"], "--frame excludes --time"),
             (["validate", "a.toml", "b.toml"], "unexpected argument 'b.toml'"),
             (["plot", "result", "--times", "early"], "--times"),
         ]:
