@@ -238,10 +238,11 @@ class CommandLine(InFreshFolder):
     def test_a_full_disk_behind_stdout_is_an_error(self):
         if not os.path.exists("/dev/full"):
             self.skipTest("there is no /dev/full")
-        with open("/dev/full", "w") as full:
-            result = subprocess.run([PROGRAM, "defaults"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
-        self.assertEqual(result.returncode, IO_ERROR)
-        self.assertIn("standard output", result.stderr)
+        for arguments in (["defaults"], ["--help"], ["run", "--help"], ["--version"]):
+            with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
+                result = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual(result.returncode, IO_ERROR)
+                self.assertIn("standard output", result.stderr)
 
 
 class Threads(InFreshFolder):
