@@ -1,5 +1,6 @@
 #include "cli/cli.hpp"
 #include "cli/thread_waiting.hpp"
+#include "cli/verbs.hpp"
 #include "runs/test_order.hpp"
 
 int main(int argc, char** argv) {
@@ -7,7 +8,7 @@ int main(int argc, char** argv) {
   skein::install_kill_order();
   return skein::run_command_line(
       argc, argv,
-      {skein::add_run_verb, skein::add_resume_verb, skein::add_verify_verb, skein::add_validate_verb,
-       skein::add_defaults_verb, skein::add_info_verb, skein::add_analyze_verb, skein::add_phases_verb,
-       skein::add_field_verb, skein::add_plot_verb, skein::add_reproduce_verb});
+      {skein::make_run_verb, skein::make_resume_verb, skein::make_verify_verb, skein::make_validate_verb,
+       skein::make_defaults_verb, skein::make_info_verb, skein::make_analyze_verb, skein::make_phases_verb,
+       skein::make_field_verb, skein::make_plot_verb, skein::make_reproduce_verb});
 }

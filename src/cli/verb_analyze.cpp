@@ -1,10 +1,9 @@
 #include <skein/arrays/runtime.hpp>
 
-#include "cli/common_options.hpp"
+#include "cli/common_arguments.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_analysis.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -31,21 +30,21 @@ int print_analysis(const AnalyzeOptions& options) {
 
 }  // namespace
 
-void add_analyze_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("analyze", "Measure what the fibers of a run did");
+Verb make_analyze_verb() {
   const auto options = std::make_shared<AnalyzeOptions>();
-  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
-  verb->add_option("-o,--output", options->output, "Folder for the tables")->type_name("FOLDER");
-  verb->add_flag("--json", options->json, "The summary as JSON");
-  verb->add_flag("--no-forces", options->no_forces, "Shapes only: no energy, power or particle stress");
-  add_threads_option(*verb, options->threads);
-  verb->footer(
-      "Examples:\n"
-      "  skein analyze tumbling\n"
-      "  skein analyze tumbling --json --no-forces -o tables\n"
-      "Tables of all frames go to DIR/analysis: diagnostics.csv and diagnostics.h5. The summary on stdout tells\n"
-      "regimes and their times, half periods, hook radius, snaking speed, and how the power balance closes.");
-  verb->callback([options, &action] { action = [options] { return print_analysis(*options); }; });
+  return {"analyze",
+          "Measure what the fibers of a run did",
+          {make_folder_argument(&options->folder),
+           make_argument("-o,--output", &options->output, "FOLDER", "Folder for the tables"),
+           make_flag("--json", &options->json, "The summary as JSON"),
+           make_flag("--no-forces", &options->no_forces, "Shapes only: no energy, power or particle stress"),
+           make_threads_option(&options->threads)},
+          "Examples:\n"
+          "  skein analyze tumbling\n"
+          "  skein analyze tumbling --json --no-forces -o tables\n"
+          "Tables of all frames go to DIR/analysis: diagnostics.csv and diagnostics.h5. The summary on stdout tells\n"
+          "regimes and their times, half periods, hook radius, snaking speed, and how the power balance closes.",
+          [options] { return print_analysis(*options); }};
 }
 
 }  // namespace skein

@@ -4,12 +4,11 @@
 #include <skein/io/vtk_image.hpp>
 #include <skein/scene/scene_file.hpp>
 
-#include "cli/common_options.hpp"
+#include "cli/common_arguments.hpp"
 #include "cli/plot_scripts.hpp"
 #include "cli/verbs.hpp"
 #include "runs/velocity_field.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -147,35 +146,30 @@ int write_field(const FieldOptions& options) {
 
 }  // namespace
 
-void add_field_verb(CLI::App& app, Action& action) {
-  CLI::App* verb =
-      app.add_subcommand("field", "The fluid's velocity around the fibers at a frame, on a plane or in a box");
+Verb make_field_verb() {
   const auto options = std::make_shared<FieldOptions>();
-  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
-  CLI::Option* frame =
-      verb->add_option("--frame", options->frame, "Frame from 0, or from the end as -1 (default: the last)")
-          ->type_name("N");
-  verb->add_option("--time", options->time, "The frame nearest to this time")->type_name("T")->excludes(frame);
-  verb->add_option("--plane", options->plane, "A plane by its normal and place, such as z or y=0.1 (default: z)")
-      ->type_name("AXIS[=PLACE]");
-  verb->add_option("--box", options->box, "Bounds of the box or, with --plane, of the plane (default: the fibers')")
-      ->type_name("X0,X1,Y0,Y1,Z0,Z1")
-      ->delimiter(',')
-      ->expected(6);
-  verb->add_option("--points", options->points, "Points along the longest side (default: 200, in a box 64)")
-      ->type_name("N")
-      ->check(CLI::Range(2, 100000));
-  verb->add_option("-o,--output", options->output, "File to write (.vti)")->required()->type_name("FILE");
-  verb->add_option("--plot", options->picture, "Draw streamlines on the plane z, too (.png, .pdf or .svg)")
-      ->type_name("PICTURE");
-  add_threads_option(*verb, options->threads);
-  verb->footer(
-      "Examples:\n"
-      "  skein field tumbling --time 5.44 -o upright.vti --plot upright.png\n"
-      "  skein field tumbling --frame -1 --plane y=0.01 --points 400 -o end.vti\n"
-      "  skein field tumbling --frame 20 --box -0.1,0.1,-0.1,0.1,-0.05,0.05 -o box.vti\n"
-      "The file is VTK's ImageData for ParaView, with the velocity and the disturbance that the fibers make of it.");
-  verb->callback([options, &action] { action = [options] { return write_field(*options); }; });
+  return {"field",
+          "The fluid's velocity around the fibers at a frame, on a plane or in a box",
+          {make_folder_argument(&options->folder),
+           make_argument("--frame", &options->frame, "N", "Frame from 0, or from the end as -1 (default: the last)"),
+           make_argument("--time", &options->time, "T", "The frame nearest to this time").exclude("--frame"),
+           make_argument("--plane", &options->plane, "AXIS[=PLACE]",
+                         "A plane by its normal and place, such as z or y=0.1 (default: z)"),
+           make_argument("--box", &options->box, "X0,X1,Y0,Y1,Z0,Z1",
+                         "Bounds of the box or, with --plane, of the plane (default: the fibers')")
+               .exactly(6),
+           make_argument("--points", &options->points, "N", "Points along the longest side (default: 200, in a box 64)")
+               .within(2, 100000),
+           make_argument("-o,--output", &options->output, "FILE", "File to write (.vti)").require(),
+           make_argument("--plot", &options->picture, "PICTURE",
+                         "Draw streamlines on the plane z, too (.png, .pdf or .svg)"),
+           make_threads_option(&options->threads)},
+          "Examples:\n"
+          "  skein field tumbling --time 5.44 -o upright.vti --plot upright.png\n"
+          "  skein field tumbling --frame -1 --plane y=0.01 --points 400 -o end.vti\n"
+          "  skein field tumbling --frame 20 --box -0.1,0.1,-0.1,0.1,-0.05,0.05 -o box.vti\n"
+          "The file is VTK's ImageData for ParaView, with the velocity and the disturbance that the fibers make of it.",
+          [options] { return write_field(*options); }};
 }
 
 }  // namespace skein

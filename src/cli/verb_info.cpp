@@ -1,12 +1,12 @@
-#include <skein/core/json_text.hpp>
+#include <skein/core/json.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/verbs.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,13 +28,11 @@ void print_lines(const std::string& scene, const std::string& mobility, const Ru
 }
 
 void print_json(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
-  fmt::print(
-      "{{\n  \"title\": {},\n  \"status\": {},\n  \"scene\": {},\n  \"mobility\": {},\n  \"frames\": {},\n  \"steps\": "
-      "{},\n"
-      "  \"segments\": {},\n  \"last_time\": {}\n}}\n",
-      quote_json(summary.title), quote_json(summary.status), quote_json(scene), quote_json(mobility), summary.frames,
-      summary.steps, summary.segments,
-      std::isfinite(summary.last_time) ? fmt::format("{}", summary.last_time) : "null");
+  JsonWriter json(/*n_open_levels=*/1);
+  json.begin_object().member("title", summary.title).member("status", summary.status);
+  json.member("scene", scene).member("mobility", mobility).member("frames", summary.frames);
+  json.member("steps", summary.steps).member("segments", summary.segments).member("last_time", summary.last_time);
+  fmt::print("{}\n", json.end_object().take());
 }
 
 int print_info(const InfoOptions& options) {
@@ -48,16 +46,15 @@ int print_info(const InfoOptions& options) {
 
 }  // namespace
 
-void add_info_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("info", "Say what a run folder holds");
+Verb make_info_verb() {
   const auto options = std::make_shared<InfoOptions>();
-  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
-  verb->add_flag("--json", options->json, "As JSON");
-  verb->footer(
-      "Examples:\n"
-      "  skein info tumbling\n"
-      "  skein info tumbling --json");
-  verb->callback([options, &action] { action = [options] { return print_info(*options); }; });
+  return {"info",
+          "Say what a run folder holds",
+          {make_folder_argument(&options->folder), make_flag("--json", &options->json, "As JSON")},
+          "Examples:\n"
+          "  skein info tumbling\n"
+          "  skein info tumbling --json",
+          [options] { return print_info(*options); }};
 }
 
 }  // namespace skein

@@ -3,12 +3,12 @@
 #include <skein/io/run_summary.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/plot_scripts.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_analysis.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -66,25 +66,22 @@ int plot_run(const PlotOptions& options) {
 
 }  // namespace
 
-void add_plot_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("plot", "Draw a run");
+Verb make_plot_verb() {
   const auto options = std::make_shared<PlotOptions>();
-  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
-  verb->add_option("--times", options->times, "Draw the frames nearest to these times")
-      ->type_name("T1,T2,...")
-      ->delimiter(',');
-  verb->add_option("-o,--output", options->output, "Folder for the pictures")->type_name("FOLDER");
-  verb->add_option("--format", options->format, "Of the pictures; png without")
-      ->type_name("png|pdf|svg")
-      ->check(CLI::IsMember({"png", "pdf", "svg"}));
-  verb->add_flag("--movie", options->movie, "Also movie.mp4, for which ffmpeg must be installed");
-  verb->footer(
-      "Examples:\n"
-      "  skein plot tumbling\n"
-      "  skein plot tumbling --times 4.95,5.44,10.9 -o pictures --format pdf\n"
-      "  skein plot tumbling --movie\n"
-      "The run is analyzed first ('skein analyze') if it has changed since the last time.");
-  verb->callback([options, &action] { action = [options] { return plot_run(*options); }; });
+  return {"plot",
+          "Draw a run",
+          {make_folder_argument(&options->folder),
+           make_argument("--times", &options->times, "T1,T2,...", "Draw the frames nearest to these times"),
+           make_argument("-o,--output", &options->output, "FOLDER", "Folder for the pictures"),
+           make_argument("--format", &options->format, "png|pdf|svg", "Of the pictures; png without")
+               .among({"png", "pdf", "svg"}),
+           make_flag("--movie", &options->movie, "Also movie.mp4, for which ffmpeg must be installed")},
+          "Examples:\n"
+          "  skein plot tumbling\n"
+          "  skein plot tumbling --times 4.95,5.44,10.9 -o pictures --format pdf\n"
+          "  skein plot tumbling --movie\n"
+          "The run is analyzed first ('skein analyze') if it has changed since the last time.",
+          [options] { return plot_run(*options); }};
 }
 
 }  // namespace skein

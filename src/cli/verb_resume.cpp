@@ -5,14 +5,13 @@
 #include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
-#include "cli/common_options.hpp"
+#include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <limits>
@@ -72,21 +71,20 @@ int resume_run(const ResumeOptions& options) {
 
 }  // namespace
 
-void add_resume_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("resume", "Go on with a run that was stopped, killed or failed");
+Verb make_resume_verb() {
   const auto options = std::make_shared<ResumeOptions>();
-  verb->add_option("folder", options->folder, "Run folder")->required()->type_name("DIR");
-  add_threads_option(*verb, options->threads);
-  add_walltime_option(*verb, options->max_walltime);
-  verb->add_flag("-q,--quiet", options->quiet, "Errors only");
-  verb->footer(
-      "Examples:\n"
-      "  skein resume tumbling\n"
-      "  skein resume tumbling --max-walltime 8h --threads 2\n"
-      "The run goes on from its newest good checkpoint to its original end, and is equal in every bit to one that was\n"
-      "never interrupted. A damaged checkpoint is named and an older one used.\n"
-      "The exit code is 0 if the end was reached, 75 if the run was stopped again, 65 if no checkpoint is good.");
-  verb->callback([options, &action] { action = [options] { return resume_run(*options); }; });
+  return {"resume",
+          "Go on with a run that was stopped, killed or failed",
+          {make_folder_argument(&options->folder), make_threads_option(&options->threads),
+           make_walltime_option(&options->max_walltime), make_quiet_flag(&options->quiet)},
+          "Examples:\n"
+          "  skein resume tumbling\n"
+          "  skein resume tumbling --max-walltime 8h --threads 2\n"
+          "The run goes on from its newest good checkpoint to its original end, "
+          "and is equal in every bit to one that was\n"
+          "never interrupted. A damaged checkpoint is named and an older one used.\n"
+          "The exit code is 0 if the end was reached, 75 if the run was stopped again, 65 if no checkpoint is good.",
+          [options] { return resume_run(*options); }};
 }
 
 }  // namespace skein

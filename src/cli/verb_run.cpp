@@ -1,25 +1,39 @@
-#include "cli/verb_run.hpp"
-
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/error.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
+#include "cli/verbs.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
+#include <limits>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace skein {
 namespace {
+
+struct RunOptions {
+  std::string scene;
+  std::filesystem::path folder;
+  std::vector<std::string> overrides;                             ///< "key=value"
+  bool overwrite = false;                                         ///< replace an earlier run in the folder
+  int threads = 0;                                                ///< of the host; 0 leaves it to the environment
+  double max_walltime = std::numeric_limits<double>::infinity();  ///< seconds
+  bool dry_run = false;                                           ///< say what it would take, and stop
+  bool quiet = false;                                             ///< errors only
+};
 
 // An earlier run's folder is locked before anything in it is replaced; a new one as soon as it is there.
 RunFolder make_folder(const RunOptions& options, const std::string& scene_text, std::optional<RunLock>& lock) {
@@ -30,8 +44,6 @@ RunFolder make_folder(const RunOptions& options, const std::string& scene_text, 
   if (!lock) lock.emplace(folder);
   return folder;
 }
-
-}  // namespace
 
 int run_scene(const RunOptions& options) {
   const SceneReading reading = read_placed_scene(options.scene, options.overrides);
@@ -47,6 +59,29 @@ int run_scene(const RunOptions& options) {
   const RunFolder folder = make_folder(options, write_scene(reading.config), lock);
   TerminalListener listener(options.quiet);
   return static_cast<int>(simulate(reading.config, folder, nullptr, control, listener));
+}
+
+}  // namespace
+
+Verb make_run_verb() {
+  const auto options = std::make_shared<RunOptions>();
+  return {"run",
+          "Simulate a scene into a run folder",
+          {make_scene_argument(&options->scene),
+           make_argument("-o,--output", &options->folder, "DIR", "Run folder to make").require(),
+           make_overrides_option(&options->overrides),
+           make_flag("--overwrite", &options->overwrite, "Replace an earlier run in the folder"),
+           make_threads_option(&options->threads), make_walltime_option(&options->max_walltime),
+           make_flag("--dry-run", &options->dry_run, "Say what the run would take, write nothing"),
+           make_quiet_flag(&options->quiet)},
+          "Examples:\n"
+          "  skein run configs/tumbling.toml -o tumbling\n"
+          "  skein run configs/tumbling.toml -o longer --set fiber.sections=113 --set time.end=16.0\n"
+          "  skein run configs/tumbling.toml -o night --max-walltime 8h --threads 2\n"
+          "The exit code is 0 if the end was reached, 75 if the run was stopped and 'skein resume' can go on.\n"
+          "SIGINT, SIGTERM and SIGUSR1 stop it with a checkpoint, and so does a file STOP in the run folder; a file\n"
+          "OUTPUT_NOW there makes a checkpoint and puts all frames so far on disk.",
+          [options] { return run_scene(*options); }};
 }
 
 }  // namespace skein

@@ -1,13 +1,13 @@
-#include <skein/core/json_text.hpp>
+#include <skein/core/json.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/scene_summary.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -23,19 +23,23 @@ struct ValidateOptions {
   bool json = false;
 };
 
-std::string list_as_json(const std::vector<Problem>& problems) {
-  std::string list;
+void write_problems(JsonWriter& json, const std::string& name, const std::vector<Problem>& problems) {
+  json.key(name).begin_array();
   for (const Problem& problem : problems) {
-    list += fmt::format("{}\n    {{\"source\": {}, \"line\": {}, \"column\": {}, \"message\": {}, \"key\": {}}}",
-                        list.empty() ? "" : ",", quote_json(problem.where.source), problem.where.line,
-                        problem.where.column, quote_json(problem.message), quote_json(problem.key_doc));
+    json.begin_object().member("source", problem.where.source).member("line", problem.where.line);
+    json.member("column", problem.where.column).member("message", problem.message);
+    json.member("key", problem.key_doc).end_object();
   }
-  return list.empty() ? "[]" : "[" + list + "\n  ]";
+  json.end_array();
 }
 
 void print_json(const bool valid, const std::vector<Problem>& problems, const std::vector<Problem>& warnings) {
-  fmt::print("{{\n  \"valid\": {},\n  \"problems\": {},\n  \"warnings\": {}\n}}\n", valid, list_as_json(problems),
-             list_as_json(warnings));
+  constexpr int n_open_levels = 2;  // of the report and its lists
+  JsonWriter json(n_open_levels);
+  json.begin_object().member("valid", valid);
+  write_problems(json, "problems", problems);
+  write_problems(json, "warnings", warnings);
+  fmt::print("{}\n", json.end_object().take());
 }
 
 int validate_scene(const ValidateOptions& options) {
@@ -59,20 +63,17 @@ int validate_scene(const ValidateOptions& options) {
 
 }  // namespace
 
-void add_validate_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("validate", "Look for mistakes in a scene, and print what follows from it");
+Verb make_validate_verb() {
   const auto options = std::make_shared<ValidateOptions>();
-  verb->add_option("scene", options->scene, "Scene file (TOML)")->required()->type_name("SCENE");
-  verb->add_option("--set", options->overrides, "Override a key of the scene; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  verb->add_flag("--json", options->json, "Problems and warnings as JSON on stdout");
-  verb->footer(
-      "Examples:\n"
-      "  skein validate configs/tumbling.toml\n"
-      "  skein validate configs/tumbling.toml --set fiber.sections=113 --json\n"
-      "The exit code is 0 for a valid scene, 78 for a wrong one, 66 if there is none.");
-  verb->callback([options, &action] { action = [options] { return validate_scene(*options); }; });
+  return {"validate",
+          "Look for mistakes in a scene, and print what follows from it",
+          {make_scene_argument(&options->scene), make_overrides_option(&options->overrides),
+           make_flag("--json", &options->json, "Problems and warnings as JSON on stdout")},
+          "Examples:\n"
+          "  skein validate configs/tumbling.toml\n"
+          "  skein validate configs/tumbling.toml --set fiber.sections=113 --json\n"
+          "The exit code is 0 for a valid scene, 78 for a wrong one, 66 if there is none.",
+          [options] { return validate_scene(*options); }};
 }
 
 }  // namespace skein

@@ -1,10 +1,10 @@
 #include <skein/core/error.hpp>
 #include <skein/io/run_check.hpp>
 
+#include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -30,17 +30,17 @@ int verify_run(const std::string& folder) {
 
 }  // namespace
 
-void add_verify_verb(CLI::App& app, Action& action) {
-  CLI::App* verb = app.add_subcommand("verify", "Prove that a run is whole, or say what is wrong where");
+Verb make_verify_verb() {
   const auto folder = std::make_shared<std::string>();
-  verb->add_option("folder", *folder, "Run folder")->required()->type_name("DIR");
-  verb->footer(
-      "Examples:\n"
-      "  skein verify tumbling\n"
-      "Checked are all checksums of frames, step records and checkpoints, their chain from the scene to the last "
-      "frame,\n"
-      "the frames' times, and that times are sums of the steps. The exit code is 0, or 65 if anything is damaged.");
-  verb->callback([folder, &action] { action = [folder] { return verify_run(*folder); }; });
+  return {"verify",
+          "Prove that a run is whole, or say what is wrong where",
+          {make_folder_argument(folder.get())},
+          "Examples:\n"
+          "  skein verify tumbling\n"
+          "Checked are all checksums of frames, step records and checkpoints, "
+          "their chain from the scene to the last frame,\n"
+          "the frames' times, and that times are sums of the steps. The exit code is 0, or 65 if anything is damaged.",
+          [folder] { return verify_run(*folder); }};
 }
 
 }  // namespace skein

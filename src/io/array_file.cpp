@@ -1,6 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/io/array_file.hpp>
-#include <skein/io/atomic_file.hpp>
+#include <skein/io/csv_file.hpp>
 
 #include "hdf5_writer.hpp"
 
@@ -25,17 +25,13 @@ void write_array_file(const std::filesystem::path& path, const std::vector<Named
 
 void write_csv(const std::filesystem::path& path, const std::vector<NamedArray>& columns) {
   SKEIN_REQUIRE(!columns.empty(), "a table has columns");
-  std::string text;
+  std::vector<CsvRow> rows(1 + columns.front().values.size());
   for (const NamedArray& column : columns) {
-    SKEIN_REQUIRE(column.values.size() == columns.front().values.size(), "columns have one length");
-    if (!text.empty()) text += ',';
-    text += column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit);
+    SKEIN_REQUIRE(column.values.size() + 1 == rows.size(), "columns have one length");
+    rows[0].push_back(column.unit.empty() ? column.name : fmt::format("{} [{}]", column.name, column.unit));
+    for (std::size_t i = 0; i < column.values.size(); ++i) rows[i + 1].push_back(fmt::format("{}", column.values[i]));
   }
-  for (std::size_t row = 0; row < columns.front().values.size(); ++row) {
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      text += fmt::format("{}{}", c == 0 ? "\n" : ",", columns[c].values[row]);
-  }
-  write_file_atomically(path, text + "\n");
+  write_csv_rows(path, rows);
 }
 
 }  // namespace skein

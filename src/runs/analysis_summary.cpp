@@ -1,5 +1,5 @@
 // The summary of an analysis, for people and as JSON.
-#include <skein/core/json_text.hpp>
+#include <skein/core/json.hpp>
 
 #include "runs/run_analysis.hpp"
 
@@ -7,18 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 namespace skein {
 namespace {
-
-std::string number_or_null(const double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-
-std::string list_json(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number_or_null(value);
-  return "[" + text + "]";
-}
 
 double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
@@ -82,36 +74,40 @@ std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber)
   return text;
 }
 
-std::string describe_fiber_as_json(const RunAnalysis& analysis, const std::size_t fiber) {
-  const FiberSummary summary = analysis.histories[fiber].summarize();
-  std::string changes, passages;
+void write_passages(JsonWriter& json, const FiberSummary& summary) {
+  json.key("changes").begin_array();
   for (const RegimeChange& change : summary.changes)
-    changes += fmt::format("{}{{\"time\": {}, \"regime\": {}}}", changes.empty() ? "" : ", ", change.time,
-                           quote_json(name_of(change.regime)));
+    json.begin_object().member("time", change.time).member("regime", name_of(change.regime)).end_object();
+  json.end_array().key("passages").begin_array();
   for (const Passage& passage : summary.passages)
-    passages += fmt::format("{}{{\"time\": {}, \"quarter_turns\": {}}}", passages.empty() ? "" : ", ", passage.time,
-                            passage.quarter_turns);
-  std::string text = fmt::format(
-      "    {{\"fiber\": {}, \"regime\": {}, \"changes\": [{}],\n     \"passages\": [{}], \"half_periods\": {},\n"
-      "     \"curvature_max\": {}, \"stretch\": [{}, {}], \"wave\": {}, \"tracks\": {},\n",
-      fiber, quote_json(name_of(summary.regime)), changes, passages, list_json(summary.half_periods),
-      number_or_null(summary.curvature_max), number_or_null(summary.stretch_min), number_or_null(summary.stretch_max),
-      quote_json(name_of(summary.wave)), summary.tracks.size());
-  text +=
-      summary.snaking
-          ? fmt::format("     \"hook_radius\": {}, \"snaking_speed\": {}, \"snaking_from\": {}, \"snaking_to\": {},\n",
-                        number_or_null(summary.snaking->hook_radius), number_or_null(summary.snaking->speed),
-                        summary.snaking->begin, summary.snaking->end)
-          : "     \"hook_radius\": null, \"snaking_speed\": null,\n";
-  text += fmt::format(
-      "     \"symmetry_defect\": {}, \"out_of_plane\": {}, \"out_of_plane_growth\": {},\n"
-      "     \"deflection_growth\": {}, \"deflection_growth_r2\": {},\n"
-      "     \"energy_defect\": {}}}",
-      number_or_null(summary.symmetry_defect_max), number_or_null(summary.out_of_plane_max),
-      number_or_null(summary.out_of_plane_growth.slope), number_or_null(summary.deflection_growth.slope),
-      number_or_null(summary.deflection_growth.determination),
-      number_or_null(measure_energy_defect(analysis, static_cast<int>(fiber))));
-  return text;
+    json.begin_object().member("time", passage.time).member("quarter_turns", passage.quarter_turns).end_object();
+  json.end_array().key("half_periods").begin_array();
+  for (const double period : summary.half_periods) json.value(period);
+  json.end_array();
+}
+
+void write_hooks(JsonWriter& json, const std::optional<Snaking>& snaking) {
+  if (!snaking) {
+    json.key("hook_radius").null().key("snaking_speed").null();
+    return;
+  }
+  json.member("hook_radius", snaking->hook_radius).member("snaking_speed", snaking->speed);
+  json.member("snaking_from", snaking->begin).member("snaking_to", snaking->end);
+}
+
+void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_t fiber) {
+  const FiberSummary summary = analysis.histories[fiber].summarize();
+  json.begin_object().member("fiber", fiber).member("regime", name_of(summary.regime));
+  write_passages(json, summary);
+  json.member("curvature_max", summary.curvature_max);
+  json.key("stretch").begin_array().value(summary.stretch_min).value(summary.stretch_max).end_array();
+  json.member("wave", name_of(summary.wave)).member("tracks", summary.tracks.size());
+  write_hooks(json, summary.snaking);
+  json.member("symmetry_defect", summary.symmetry_defect_max).member("out_of_plane", summary.out_of_plane_max);
+  json.member("out_of_plane_growth", summary.out_of_plane_growth.slope);
+  json.member("deflection_growth", summary.deflection_growth.slope);
+  json.member("deflection_growth_r2", summary.deflection_growth.determination);
+  json.member("energy_defect", measure_energy_defect(analysis, static_cast<int>(fiber))).end_object();
 }
 
 }  // namespace
@@ -124,13 +120,13 @@ std::string describe_analysis(const RunAnalysis& analysis) {
 }
 
 std::string describe_analysis_as_json(const RunAnalysis& analysis) {
-  std::string fibers;
-  for (std::size_t f = 0; f < analysis.fibers.size(); ++f)
-    fibers += (f == 0 ? "" : ",\n") + describe_fiber_as_json(analysis, f);
-  return fmt::format(
-      "{{\n  \"frames\": {}, \"last_time\": {}, \"status\": {}, \"smallest_gap\": {},\n  \"fibers\": [\n{}\n  ]\n}}\n",
-      analysis.time.size(), analysis.time.back(), quote_json(analysis.status),
-      number_or_null(smallest(analysis.smallest_gap)), fibers);
+  constexpr int n_open_levels = 3;  // of the run, the list of fibers, each fiber
+  JsonWriter json(n_open_levels);
+  json.begin_object().member("frames", analysis.time.size()).member("last_time", analysis.time.back());
+  json.member("status", analysis.status).member("smallest_gap", smallest(analysis.smallest_gap));
+  json.key("fibers").begin_array();
+  for (std::size_t f = 0; f < analysis.fibers.size(); ++f) write_fiber(json, analysis, f);
+  return json.end_array().end_object().take() + "\n";
 }
 
 }  // namespace skein

@@ -1,7 +1,7 @@
 #include "studies/acceptance.hpp"
 
-#include <skein/core/json_text.hpp>
-#include <skein/io/atomic_file.hpp>
+#include <skein/core/json.hpp>
+#include <skein/io/csv_file.hpp>
 
 #include <fmt/format.h>
 
@@ -20,12 +20,6 @@ Cells cells_of(const AcceptanceRow& row) {
 }
 
 const Cells heading = {"figure", "quantity", "paper", "skein", "difference", "tolerance", "verdict", "source"};
-
-std::string quote_csv(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
 
 int count(const std::vector<AcceptanceRow>& rows, const Verdict verdict) {
   return static_cast<int>(
@@ -95,26 +89,24 @@ std::string describe_rows(const std::vector<AcceptanceRow>& rows) {
 }
 
 std::string describe_rows_as_json(const std::vector<AcceptanceRow>& rows) {
-  std::string text;
+  JsonWriter json(/*n_open_levels=*/1);
+  json.begin_array();
   for (const AcceptanceRow& row : rows) {
     const Cells cells = cells_of(row);
-    std::string object;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      object += fmt::format("{}{}: {}", c == 0 ? "" : ", ", quote_json(heading[c]), quote_json(cells[c]));
-    text += (text.empty() ? "  {" : ",\n  {") + object + "}";
+    json.begin_object();
+    for (std::size_t c = 0; c < cells.size(); ++c) json.member(heading[c], cells[c]);
+    json.end_object();
   }
-  return "[\n" + text + "\n]\n";
+  return json.end_array().take() + "\n";
 }
 
 void write_rows_csv(const std::filesystem::path& path, const std::vector<AcceptanceRow>& rows) {
-  std::string text;
-  const auto add = [&](const Cells& cells) {
-    for (std::size_t c = 0; c < cells.size(); ++c) text += (c == 0 ? "" : ",") + quote_csv(cells[c]);
-    text += "\n";
-  };
-  add(heading);
-  for (const AcceptanceRow& row : rows) add(cells_of(row));
-  write_file_atomically(path, text);
+  std::vector<CsvRow> lines{{heading.begin(), heading.end()}};
+  for (const AcceptanceRow& row : rows) {
+    const Cells cells = cells_of(row);
+    lines.emplace_back(cells.begin(), cells.end());
+  }
+  write_csv_rows(path, lines);
 }
 
 Verdict worst(const std::vector<AcceptanceRow>& rows) {

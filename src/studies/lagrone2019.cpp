@@ -24,8 +24,8 @@ double straightness(const Shape& shape) { return shape.distance / shape.length; 
 double half_turns(const Shape& shape) { return shape.total_turning / std::numbers::pi; }
 double n_bends(const Shape& shape) { return static_cast<double>(shape.bends.size()); }
 
-std::vector<AcceptanceRow> compare_table1() {
-  FigureRows rows("table1");
+std::vector<AcceptanceRow> compare_table1(const PaperRuns& /*runs*/, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   const auto fiber_of = [](const PaperFiber& paper) {
     return make_fibers(make_paper_scene(paper.sections, paper.end).fibers)[0];
   };
@@ -98,8 +98,8 @@ void compare_snaking(FigureRows& rows, const PaperRuns& runs) {
   rows.add("L = 0.523: regime", "Section 4", compare_word("snake", run.has(13.0) ? name_of(run.summary().regime) : ""));
 }
 
-std::vector<AcceptanceRow> compare_figure2(const PaperRuns& runs) {
-  FigureRows rows("figure2");
+std::vector<AcceptanceRow> compare_figure2(const PaperRuns& runs, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   compare_tumbling(rows, runs);
   compare_s_turn(rows, runs);
   compare_snaking(rows, runs);
@@ -112,8 +112,8 @@ std::vector<AcceptanceRow> compare_figure2(const PaperRuns& runs) {
   return rows.take();
 }
 
-std::vector<AcceptanceRow> compare_figure3(const PaperRuns& runs) {
-  FigureRows rows("figure3");
+std::vector<AcceptanceRow> compare_figure3(const PaperRuns& runs, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   const auto add = [&](const char* name, const char* length, const char* panel, const double end, const char* wave) {
     rows.add(fmt::format("L = {}: extrema of curvature", length), panel,
              compare_word(wave, PaperRun(runs, name).wave(end)));
@@ -124,8 +124,8 @@ std::vector<AcceptanceRow> compare_figure3(const PaperRuns& runs) {
   return rows.take();
 }
 
-std::vector<AcceptanceRow> compare_figure4(const PaperRuns& runs) {
-  FigureRows rows("figure4");
+std::vector<AcceptanceRow> compare_figure4(const PaperRuns& runs, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   const PaperRun run(runs, "L0931");
   rows.add("L = 0.931: bent ends at t = 4.95", "Figure 4", compare_range(2, infinity, run.at(4.95, [](const Shape& s) {
              return std::count_if(s.bends.begin(), s.bends.end(),
@@ -143,8 +143,8 @@ std::vector<AcceptanceRow> compare_figure4(const PaperRuns& runs) {
   return rows.take();
 }
 
-std::vector<AcceptanceRow> compare_figure5(const PaperRuns& runs) {
-  FigureRows rows("figure5");
+std::vector<AcceptanceRow> compare_figure5(const PaperRuns& runs, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   const PaperRun run(runs, "L2280");
   rows.add("L = 2.28: hooks at t = 10", "Figure 5", compare_number(2, run.count_hooks(10.0), 0));
   rows.add("L = 2.28: bends at t = 36: many", "Figure 3 f", compare_range(6, infinity, run.at(36.0, n_bends)));
@@ -153,8 +153,8 @@ std::vector<AcceptanceRow> compare_figure5(const PaperRuns& runs) {
   return rows.take();
 }
 
-std::vector<AcceptanceRow> compare_figure6(const PaperRuns& runs) {
-  FigureRows rows("figure6");
+std::vector<AcceptanceRow> compare_figure6(const PaperRuns& runs, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   const PaperRun run(runs, "L2280");
   rows.add("L = 2.28: shape at t = 110", "Figure 6", compare_word("three-dimensional", run.regime(110.0)));
   rows.add("L = 2.28: total turning at t = 110 (half turns)", "Figure 6, an entangled state",
@@ -166,8 +166,8 @@ std::vector<AcceptanceRow> compare_figure6(const PaperRuns& runs) {
   return rows.take();
 }
 
-std::vector<AcceptanceRow> compare_figure7(const PaperRuns& runs) {
-  FigureRows rows("figure7");
+std::vector<AcceptanceRow> compare_figure7(const PaperRuns& runs, const std::vector<SumTiming>& /*timings*/) {
+  FigureRows rows;
   std::optional<Snaking> reference;
   for (const auto& [name, length] : {std::pair{"L0523", "0.523"}, {"L0931", "0.931"}, {"L2280", "2.28"}}) {
     if (runs.count(name) == 0 && reference) continue;
@@ -200,8 +200,8 @@ std::vector<AcceptanceRow> compare_figure7(const PaperRuns& runs) {
   return rows.take();
 }
 
-std::vector<AcceptanceRow> compare_figure8(const std::vector<SumTiming>& timings) {
-  FigureRows rows("figure8");
+std::vector<AcceptanceRow> compare_figure8(const PaperRuns& /*runs*/, const std::vector<SumTiming>& timings) {
+  FigureRows rows;
   rows.add("nodes from which on the fast multipole method is faster", "Figure 8",
            compare_range(-infinity, 1.7e4, find_crossover(timings)));
   const SumTiming last = timings.empty() ? SumTiming{23634, nan, nan, nan} : timings.back();
@@ -215,38 +215,43 @@ std::vector<AcceptanceRow> compare_figure8(const std::vector<SumTiming>& timings
 }  // namespace
 
 const std::vector<PaperFiber>& list_paper_fibers() {
-  static const std::vector<PaperFiber> fibers{{"L0139", 80, 40.0, 5.35e2, " figure2 figure3 "},
-                                              {"L0196", 113, 30.0, 1.97e3, " figure2 figure3 "},
-                                              {"L0523", 301, 26.0, 8.22e4, " figure2 figure3 figure4 figure7 "},
-                                              {"L0931", 536, 31.25, 7.51e5, " figure4 "},
-                                              {"L2280", 1313, 110.0, 2.37e7, " figure5 figure6 "}};
+  using enum Figure;
+  static const std::vector<PaperFiber> fibers{{"L0139", 80, 40.0, 5.35e2, {figure2, figure3}},
+                                              {"L0196", 113, 30.0, 1.97e3, {figure2, figure3}},
+                                              {"L0523", 301, 26.0, 8.22e4, {figure2, figure3, figure4, figure7}},
+                                              {"L0931", 536, 31.25, 7.51e5, {figure4}},
+                                              {"L2280", 1313, 110.0, 2.37e7, {figure5, figure6}}};
   return fibers;
 }
 
-const std::vector<std::pair<std::string, std::string>>& list_paper_figures() {
-  static const std::vector<std::pair<std::string, std::string>> figures{
-      {"table1", "geometry, rigidity, elasto-viscous numbers; no runs"},
-      {"figure2", "tumbling, S-turn and snaking: lengths 0.139, 0.196, 0.523"},
-      {"figure3", "curvature in time: standing and travelling extrema"},
-      {"figure7", "radius and speed of the hooks"},
-      {"figure4", "length 0.931 to t = 31.25; minutes"},
-      {"figure5", "length 2.28 to t = 110; half an hour"},
-      {"figure6", "length 2.28 at t = 110, seen from the side: the run of figure 5"},
-      {"figure8", "times of direct sums and of the fast multipole method; no runs"}};
+const std::vector<PaperFigure>& list_paper_figures() {
+  using enum Figure;
+  static const std::vector<PaperFigure> figures{
+      {table1, "table1", "geometry, rigidity, elasto-viscous numbers; no runs", compare_table1},
+      {figure2, "figure2", "tumbling, S-turn and snaking: lengths 0.139, 0.196, 0.523", compare_figure2},
+      {figure3, "figure3", "curvature in time: standing and travelling extrema", compare_figure3},
+      {figure7, "figure7", "radius and speed of the hooks", compare_figure7},
+      {figure4, "figure4", "length 0.931 to t = 31.25; minutes", compare_figure4},
+      {figure5, "figure5", "length 2.28 to t = 110; half an hour", compare_figure5},
+      {figure6, "figure6", "length 2.28 at t = 110, seen from the side: the run of figure 5", compare_figure6},
+      {figure8, "figure8", "times of direct sums and of the fast multipole method; no runs", compare_figure8}};
   return figures;
 }
 
-std::vector<AcceptanceRow> compare_with_paper(const std::string& figure, const PaperRuns& runs,
+const PaperFigure& find_paper_figure(const Figure figure) {
+  const auto& figures = list_paper_figures();
+  const auto found =
+      std::find_if(figures.begin(), figures.end(), [&](const PaperFigure& one) { return one.figure == figure; });
+  SKEIN_REQUIRE(found != figures.end(), "each figure is in the list");
+  return *found;
+}
+
+std::vector<AcceptanceRow> compare_with_paper(const Figure figure, const PaperRuns& runs,
                                               const std::vector<SumTiming>& timings) {
-  if (figure == "table1") return compare_table1();
-  if (figure == "figure2") return compare_figure2(runs);
-  if (figure == "figure3") return compare_figure3(runs);
-  if (figure == "figure4") return compare_figure4(runs);
-  if (figure == "figure5") return compare_figure5(runs);
-  if (figure == "figure6") return compare_figure6(runs);
-  if (figure == "figure8") return compare_figure8(timings);
-  if (figure == "figure7") return compare_figure7(runs);
-  throw Error(ExitCode::usage, fmt::format("there is no figure '{}' to reproduce.", figure));
+  const PaperFigure& compared = find_paper_figure(figure);
+  auto rows = compared.compare(runs, timings);
+  for (AcceptanceRow& row : rows) row.figure = compared.name;
+  return rows;
 }
 
 }  // namespace skein

@@ -12,13 +12,10 @@
 
 namespace skein {
 
-/// Rows of one figure.
+/// Rows of one figure, which compare_with_paper() names.
 class FigureRows {
  public:
-  explicit FigureRows(std::string figure) : figure_(std::move(figure)) {}
-
   void add(const std::string& quantity, const std::string& source, AcceptanceRow row) {
-    row.figure = figure_;
     row.quantity = quantity;
     row.source = source;
     rows_.push_back(std::move(row));
@@ -26,7 +23,6 @@ class FigureRows {
   std::vector<AcceptanceRow> take() { return std::move(rows_); }
 
  private:
-  std::string figure_;
   std::vector<AcceptanceRow> rows_;
 };
 

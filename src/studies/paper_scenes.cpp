@@ -13,7 +13,7 @@ SceneConfig make_paper_scene(const int sections, const double end) {
   SceneConfig scene;  // whose flow is the paper's by default: shear of rate 2.5
   FiberConfig fiber;
   fiber.sections = sections;
-  fiber.nodes_per_section = 18;
+  fiber.nodes_per_section = paper_nodes_per_section;
   fiber.radius = 0.005;
   fiber.spring_stiffness = 0.0112;
   fiber.blob = 0.00225;

@@ -4,6 +4,9 @@
 
 namespace skein {
 
+/// Nodes on a section of the paper's fibers.
+constexpr int paper_nodes_per_section = 18;
+
 /// A fiber of LaGrone, Cortez, Yan, Fauci 2019 in their shear flow, in their units: straight along x at t = 0.
 /// @param sections  N_f; the length is N_f 0.00173648
 SceneConfig make_paper_scene(int sections, double end);

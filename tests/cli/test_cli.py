@@ -205,7 +205,8 @@ class CommandLine(InFreshFolder):
             (["run", "scene.toml", "-o", "result", "--threads", "0"], "--threads"),
             (["run", "scene.toml", "-o", "result", "--threads", "two"], "--threads"),
             (["run", "scene.toml", "-o", "result", "--max-walltime", "soon"], "'soon' is no duration"),
-            (["run", "scene.toml", "-o", "result", "-q", "-v"], "excludes"),
+            (["run", "scene.toml", "-o", "result", "-q", "-v"], "unknown option '-v'"),
+            (["field", "result", "-o", "end.vti", "--frame", "1", "--time", "2"], "--frame excludes --time"),
             (["validate", "a.toml", "b.toml"], "unexpected argument 'b.toml'"),
             (["plot", "result", "--times", "early"], "--times"),
         ]:
@@ -237,10 +238,11 @@ class CommandLine(InFreshFolder):
     def test_a_full_disk_behind_stdout_is_an_error(self):
         if not os.path.exists("/dev/full"):
             self.skipTest("there is no /dev/full")
-        with open("/dev/full", "w") as full:
-            result = subprocess.run([PROGRAM, "defaults"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
-        self.assertEqual(result.returncode, IO_ERROR)
-        self.assertIn("standard output", result.stderr)
+        for arguments in (["defaults"], ["--help"], ["run", "--help"], ["--version"]):
+            with self.subTest(arguments=arguments), open("/dev/full", "w") as full:
+                result = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual(result.returncode, IO_ERROR)
+                self.assertIn("standard output", result.stderr)
 
 
 class Threads(InFreshFolder):

@@ -61,23 +61,22 @@ TEST(PaperScenes, CoarseFibersKeepLengthAndRigidity) {
 }
 
 TEST(PaperTable, NeedsNoRunsForGeometry) {
-  const auto rows = compare_with_paper("table1", {}, {});
+  const auto rows = compare_with_paper(Figure::table1, {}, {});
   EXPECT_EQ(rows.size(), 14u);
   for (const AcceptanceRow& row : rows) EXPECT_EQ(row.verdict, Verdict::agrees) << row.quantity << " " << row.skein;
 }
 
 TEST(PaperTable, RunsThatAreNotThereAreNotReached) {
-  for (const auto& [figure, what] : list_paper_figures()) {
-    if (figure == "table1") continue;
-    const auto rows = compare_with_paper(figure, {}, {});
-    EXPECT_FALSE(rows.empty()) << figure;
+  for (const PaperFigure& figure : list_paper_figures()) {
+    if (figure.figure == Figure::table1) continue;
+    const auto rows = compare_with_paper(figure.figure, {}, {});
+    EXPECT_FALSE(rows.empty()) << figure.name;
     for (const AcceptanceRow& row : rows) {
       EXPECT_EQ(row.verdict, Verdict::not_reached) << row.quantity;
-      EXPECT_EQ(row.figure, figure);
+      EXPECT_EQ(row.figure, figure.name);
       EXPECT_FALSE(row.source.empty()) << row.quantity;
     }
   }
-  EXPECT_ANY_THROW(compare_with_paper("figure99", {}, {}));
 }
 
 /// A rigid rod on its orbit (Jeffery 1922), half turn of the given duration.
@@ -105,7 +104,7 @@ TEST(PaperTable, ARigidRodHasTheOrbitButNotTheBends) {
   PaperRuns runs;
   runs.emplace("L0139", make_rigid_run(10.9, 12.0));
   int n_angles = 0;
-  for (const AcceptanceRow& row : compare_with_paper("figure2", runs, {})) {
+  for (const AcceptanceRow& row : compare_with_paper(Figure::figure2, runs, {})) {
     const bool is_angle = row.quantity.find("0.139: angle") != std::string::npos ||
                           row.quantity.find("0.139: half period") != std::string::npos;
     n_angles += is_angle;
@@ -122,7 +121,7 @@ TEST(PaperTable, ARigidRodHasTheOrbitButNotTheBends) {
   // A run that has not come far enough yet.
   runs.clear();
   runs.emplace("L0139", make_rigid_run(10.9, 5.0));
-  const auto rows = compare_with_paper("figure2", runs, {});
+  const auto rows = compare_with_paper(Figure::figure2, runs, {});
   EXPECT_EQ(rows[0].verdict, Verdict::agrees);
   EXPECT_EQ(rows[2].verdict, Verdict::not_reached);
 }
@@ -142,7 +141,7 @@ TEST(PaperTimings, TheCrossoverLiesBetweenTheSizesByAPowerLaw) {
 }
 
 TEST(PaperTimings, RowsOfFigure8) {
-  const auto rows = compare_with_paper("figure8", {}, {{10000, 1.0, 1.5, 1e-5}, {23634, 5.0, 3.5, 2e-4}});
+  const auto rows = compare_with_paper(Figure::figure8, {}, {{10000, 1.0, 1.5, 1e-5}, {23634, 5.0, 3.5, 2e-4}});
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].verdict, Verdict::agrees);   // below 17 000, by interpolation
   EXPECT_EQ(rows[1].verdict, Verdict::differs);  // 1.43 times
@@ -152,7 +151,7 @@ TEST(PaperTimings, RowsOfFigure8) {
 TEST(PaperTable, ASlowRodDiffers) {
   PaperRuns runs;
   runs.emplace("L0139", make_rigid_run(12.0, 13.0));
-  const auto rows = compare_with_paper("figure2", runs, {});
+  const auto rows = compare_with_paper(Figure::figure2, runs, {});
   EXPECT_EQ(rows[0].verdict, Verdict::differs);
 }
 

@@ -1,5 +1,4 @@
 #include <skein/core/duration.hpp>
-#include <skein/core/json_text.hpp>
 
 #include "cli/progress.hpp"
 
@@ -42,14 +41,6 @@ TEST(Progress, BarFillsAtTheEndOnly) {
   EXPECT_EQ(draw_bar(0.99, 4), "[###.]");
   EXPECT_EQ(draw_bar(1.0, 4), "[####]");
   EXPECT_EQ(draw_bar(7.0, 4), "[####]");
-}
-
-TEST(JsonText, IsValidForAnyBytes) {
-  EXPECT_EQ(quote_json("a\"b\\c\n\x01"), R"("a\"b\\c\u000a\u0001")");
-  EXPECT_EQ(quote_json("\xc3\xa9"), "\"\xc3\xa9\"");
-  EXPECT_EQ(quote_json("a\xff"), R"("a\ufffd")");
-  EXPECT_EQ(quote_json("\xc3"), R"("\ufffd")");
-  EXPECT_EQ(quote_json("\xed\xa0\x80"), R"("\ufffd\ufffd\ufffd")");
 }
 
 }  // namespace

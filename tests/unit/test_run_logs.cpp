@@ -58,6 +58,17 @@ TEST(EventLog, WritesOneObjectALineAtOnce) {
   EXPECT_TRUE(ends_with(lines[1], ", \"dt\": 0.1, \"gap\": null}")) << lines[1];
 }
 
+TEST(EventLog, StaysJsonForAFileNamedInLatin1) {
+  const ScratchFolder scratch;
+  EventLog log(scratch.path() / "events.jsonl");
+  log.write("failed", {{"message", std::string("cannot write 'r\xe9sultat/trajectory.h5'")}});
+
+  const auto lines = lines_of(scratch.path() / "events.jsonl");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_NE(lines[0].find(R"("message": "cannot write 'r\ufffdsultat/trajectory.h5'"})"), std::string::npos)
+      << lines[0];
+}
+
 TEST(LineFile, ContinuesAnExistingFileAndReportsAFullDisk) {
   const ScratchFolder scratch;
   { LineFile(scratch.path() / "log").write_line("one"); }

@@ -23,7 +23,7 @@ class EventLog {
   explicit EventLog(const std::filesystem::path& path);
 
   /// Writes {"event": name, "wall": seconds since the log was opened, fields...}. Doubles keep all their digits; those
-  /// that JSON lacks (NaN, infinity) become null.
+  /// that JSON lacks (NaN, infinity) become null, and bytes that are no UTF-8, as a file's name may have, U+FFFD.
   void write(std::string_view event, const Fields& fields = {});
 
  private:

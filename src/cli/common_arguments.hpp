@@ -1,0 +1,28 @@
+#pragma once
+
+#include "cli/verb.hpp"
+
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// scene: a file, which must be there
+Argument make_scene_argument(std::string* scene);
+
+/// folder: that of a run, which must be there
+Argument make_folder_argument(std::string* folder);
+
+/// --set KEY=VALUE
+Argument make_overrides_option(std::vector<std::string>* overrides);
+
+/// --threads N
+Argument make_threads_option(int* threads);
+
+/// --max-walltime T, in seconds
+Argument make_walltime_option(double* seconds);
+
+/// -q, --quiet
+Argument make_quiet_flag(bool* quiet);
+
+}  // namespace skein

@@ -1,0 +1,153 @@
+#include "cli/parser.hpp"
+
+#include <skein/arrays/runtime.hpp>
+#include <skein/core/duration.hpp>
+#include <skein/core/error.hpp>
+#include <skein/scene/nearest_name.hpp>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+namespace skein {
+namespace {
+
+std::string check_duration(const std::string& text) {
+  if (parse_duration(text)) return "";
+  return "'" + text + "' is no duration; write seconds, or 90s, 30m, 2h, 1d, 1:30:00";
+}
+
+/// Adds an argument to the parser's verb, as its target asks for.
+class AddArgument {
+ public:
+  AddArgument(CLI::App& verb, const Argument& argument) : verb_(verb), argument_(argument) {}
+
+  CLI::Option* operator()(bool* is_given) const {
+    return verb_.add_flag(argument_.names, *is_given, argument_.meaning);
+  }
+  CLI::Option* operator()(const Duration& duration) const {
+    const auto store = [duration](const std::string& text) { *duration.seconds = *parse_duration(text); };
+    return verb_.add_option_function<std::string>(argument_.names, store, argument_.meaning)->check(check_duration);
+  }
+  CLI::Option* operator()(std::vector<std::string>* texts) const { return add(texts)->allow_extra_args(false); }
+  CLI::Option* operator()(std::vector<double>* numbers) const {
+    CLI::Option* option = add(numbers)->delimiter(',');
+    return argument_.count > 0 ? option->expected(argument_.count) : option;
+  }
+  template <class Value>
+  CLI::Option* operator()(Value* value) const {
+    CLI::Option* option = add(value);
+    if constexpr (std::is_arithmetic_v<Value>) {
+      if (const auto& bounds = argument_.bounds)
+        option->check(CLI::Range(static_cast<Value>(bounds->first), static_cast<Value>(bounds->second)));
+    }
+    return option;
+  }
+
+ private:
+  template <class Value>
+  CLI::Option* add(Value* value) const {
+    return verb_.add_option(argument_.names, *value, argument_.meaning);
+  }
+
+  CLI::App& verb_;
+  const Argument& argument_;
+};
+
+void add_argument(CLI::App& verb, const Argument& argument) {
+  CLI::Option* option = std::visit(AddArgument(verb, argument), argument.target);
+  option->required(argument.is_required);
+  if (!argument.type_name.empty()) option->type_name(argument.type_name);
+  if (!argument.words.empty()) option->check(CLI::IsMember(argument.words));
+  if (!argument.excluded.empty()) option->excludes(argument.excluded);
+}
+
+void add_verb(CLI::App& app, const Verb& verb) {
+  CLI::App* added = app.add_subcommand(verb.name, verb.summary);
+  for (const Argument& argument : verb.arguments) add_argument(*added, argument);
+  added->footer(verb.footer);
+}
+
+void describe_program(CLI::App& app) {
+  std::string build = describe_build();
+  while (!build.empty() && build.back() == '\n') build.pop_back();
+  app.set_version_flag("--version", build, "Print version, commit, compiler and Kokkos backends");
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  skein defaults > scene.toml      a scene with every key, explained\n"
+      "  skein validate scene.toml        look for mistakes\n"
+      "  skein run scene.toml -o result   simulate into the folder 'result'\n"
+      "  skein plot result                draw it\n"
+      "'skein VERB --help' explains a verb.");
+}
+
+std::string suggest(const std::string& name, const std::vector<std::string>& known) {
+  const std::string nearest = find_nearest_name(name, known);
+  return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
+}
+
+// Before parsing: the parser would only say that a verb is missing.
+void check_verb_name(const int n_arguments, char** arguments, const std::vector<Verb>& verbs) {
+  const std::string first = n_arguments > 1 ? arguments[1] : "";
+  if (first.empty() || first[0] == '-') return;
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs) names.push_back(verb.name);
+  if (std::find(names.begin(), names.end(), first) != names.end()) return;
+  throw Error(ExitCode::usage,
+              fmt::format("unknown verb '{}'{}\n'skein --help' lists the verbs", first, suggest(first, names)));
+}
+
+std::vector<std::string> list_flags(const CLI::App& app) {
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const auto& name : option->get_snames()) flags.push_back("-" + name);
+    for (const auto& name : option->get_lnames()) flags.push_back("--" + name);
+  }
+  return flags;
+}
+
+std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& error) {
+  const auto used = app.get_subcommands();
+  const CLI::App& verb = used.empty() ? app : *used.front();
+  // Named before anything that is missing: a mistyped option leaves the right one missing.
+  std::string message = error.what();
+  const auto extras = app.remaining(true);
+  if (!extras.empty()) {
+    const std::string& extra = extras.front();
+    const std::string name = extra.substr(0, extra.find('='));
+    message = extra[0] == '-' ? fmt::format("unknown option '{}'{}", name, suggest(name, list_flags(verb)))
+                              : fmt::format("unexpected argument '{}'", extra);
+  }
+  return fmt::format("{}\n'skein {}--help' shows what can be written", message,
+                     used.empty() ? "" : verb.get_name() + " ");
+}
+
+}  // namespace
+
+std::function<int()> parse_command_line(const int n_arguments, char** arguments, const std::vector<Verb>& verbs) {
+  CLI::App app("Elastic fibers in viscous flow.", "skein");
+  describe_program(app);
+  for (const Verb& verb : verbs) add_verb(app, verb);
+  check_verb_name(n_arguments, arguments, verbs);
+  try {
+    app.parse(n_arguments, arguments);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw Error(ExitCode::usage, describe_parse_error(app, error));
+    std::ostringstream text;  // of --help or --version
+    app.exit(error, text, text);
+    return [text = text.str()] {
+      fmt::print("{}", text);
+      return 0;
+    };
+  }
+  const std::string name = app.get_subcommands().front()->get_name();
+  return std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return verb.name == name; })->run;
+}
+
+}  // namespace skein

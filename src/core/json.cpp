@@ -1,0 +1,115 @@
+#include <skein/core/error.hpp>
+#include <skein/core/json.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein {
+namespace {
+
+// Length of the UTF-8 sequence at `at`; 0 if there is none. Overlong forms and surrogates count as none.
+std::size_t sequence_length(const std::string_view text, const std::size_t at) {
+  const auto byte = [text](const std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : static_cast<unsigned char>(0);
+  };
+  const unsigned char first = byte(at), second = byte(at + 1);
+  std::size_t length = 0;
+  if (first < 0x80) return 1;
+  if (first >= 0xc2 && first <= 0xdf) length = 2;
+  if (first >= 0xe0 && first <= 0xef) length = 3;
+  if (first >= 0xf0 && first <= 0xf4) length = 4;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xc0) != 0x80) return 0;
+  }
+  const bool forbidden = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+                         (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
+  return forbidden ? 0 : length;
+}
+
+std::string quote(const std::string_view text) {
+  std::string quoted = "\"";
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = sequence_length(text, at);
+    const char c = text[at];
+    if (length == 0) {
+      quoted += "\\ufffd";
+    } else if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else {
+      quoted += text.substr(at, length);
+    }
+    at += std::max<std::size_t>(length, 1);
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+JsonWriter& JsonWriter::key(const std::string_view name) {
+  SKEIN_REQUIRE(!levels_.empty() && levels_.back().closing == '}' && !has_key_, "a key stands in an object");
+  begin_element();
+  text_ += quote(name) + ": ";
+  has_key_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(const std::string_view text) { return add_scalar(quote(text)); }
+
+JsonWriter& JsonWriter::value(const double number) {
+  if (!std::isfinite(number)) return null();
+  std::string digits = fmt::format("{}", number);
+  if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
+  return add_scalar(digits);
+}
+
+JsonWriter& JsonWriter::value(const bool truth) { return add_scalar(truth ? "true" : "false"); }
+
+std::string JsonWriter::take() {
+  SKEIN_REQUIRE(levels_.empty() && !text_.empty(), "a JSON text is one value, with all its brackets closed");
+  return std::exchange(text_, {});
+}
+
+JsonWriter& JsonWriter::begin(const char opening, const char closing) {
+  begin_value();
+  text_ += opening;
+  levels_.push_back({closing});
+  return *this;
+}
+
+JsonWriter& JsonWriter::end(const char closing) {
+  SKEIN_REQUIRE(!levels_.empty() && levels_.back().closing == closing && !has_key_, "brackets close as they open");
+  const bool was_empty = levels_.back().is_empty;
+  levels_.pop_back();
+  if (!was_empty && levels_.size() < static_cast<std::size_t>(n_open_levels_)) break_line(levels_.size());
+  text_ += closing;
+  return *this;
+}
+
+JsonWriter& JsonWriter::add_scalar(const std::string_view text) {
+  begin_value();
+  text_ += text;
+  return *this;
+}
+
+void JsonWriter::begin_value() {
+  const bool is_in_object = !levels_.empty() && levels_.back().closing == '}';
+  SKEIN_REQUIRE(is_in_object ? has_key_ : !levels_.empty() || text_.empty(), "a value stands where JSON has one");
+  if (!is_in_object && !levels_.empty()) begin_element();
+  has_key_ = false;
+}
+
+void JsonWriter::begin_element() {
+  Level& level = levels_.back();
+  const bool has_line = levels_.size() <= static_cast<std::size_t>(n_open_levels_);
+  if (!level.is_empty) text_ += has_line ? "," : ", ";
+  if (has_line) break_line(levels_.size());
+  level.is_empty = false;
+}
+
+void JsonWriter::break_line(const std::size_t n_brackets) { text_ += '\n' + std::string(2 * n_brackets, ' '); }
+
+}  // namespace skein
