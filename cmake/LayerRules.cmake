@@ -20,4 +20,4 @@ skein_layer(io       HOST PUBLIC core scene fibers                              
 skein_layer(analysis HOST PUBLIC core fibers                                            EXTERNAL Eigen)
 skein_layer(runs     PROGRAM PUBLIC core arrays scene fibers physics solvers dynamics io analysis)
 skein_layer(studies  HOST PROGRAM PUBLIC core scene fibers io runs)
-skein_layer(cli      HOST PROGRAM PUBLIC core arrays scene fibers physics io runs studies EXTERNAL CLI)
+skein_layer(cli      HOST PROGRAM PUBLIC core arrays scene physics io runs studies EXTERNAL CLI)

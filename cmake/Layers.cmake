@@ -26,6 +26,16 @@ function(skein_compile_on_host)
   endif()
 endfunction()
 
+# With nvcc, most of whose time goes into reading Kokkos, a layer without device code of its own is one translation unit.
+function(skein_unite_for_device name)
+  if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper" OR SKEIN_UNITE_LAYERS)
+    set_target_properties(skein_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    get_target_property(sources skein_${name} SOURCES)
+    list(REMOVE_ITEM sources ${arg_FILES})
+    set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
 # What all targets of a layer have in common: a library and, where it has pair loops, the objects of these.
 function(skein_set_up_layer target name)
   foreach(property IN ITEMS HOST PUBLIC PRIVATE)
@@ -44,13 +54,13 @@ function(skein_set_up_layer target name)
   endforeach()
 endfunction()
 
-# skein_add_layer(<name> [FILES sources...] [KERNEL_FILES pair loops...] [HOST_FILES sources that do not see Kokkos...]
+# skein_add_layer(<name> [UNITE] [FILES sources...] [KERNEL_FILES pair loops...] [HOST_FILES sources that do not see Kokkos...]
 #                 [LIBRARIES third-party targets that users must link, too...]
 #                 [PUBLIC_LIBRARIES ... whose headers they include, too...] [HEADERS header-only targets of its sources...])
 # Every layer links fmt, with which errors are written. In a HOST layer no source sees Kokkos; tests/house holds HOST and
 # HOST_FILES to what is included.
 function(skein_add_layer name)
-  cmake_parse_arguments(arg "" "" "FILES;KERNEL_FILES;HOST_FILES;LIBRARIES;PUBLIC_LIBRARIES;HEADERS" ${ARGN})
+  cmake_parse_arguments(arg "UNITE" "" "FILES;KERNEL_FILES;HOST_FILES;LIBRARIES;PUBLIC_LIBRARIES;HEADERS" ${ARGN})
   add_library(skein_${name} STATIC ${arg_FILES} ${arg_HOST_FILES})
   add_library(skein::${name} ALIAS skein_${name})
   set_target_properties(skein_${name} PROPERTIES EXPORT_NAME ${name})
@@ -61,7 +71,13 @@ function(skein_add_layer name)
     skein_compile_on_host(${arg_FILES})
   else()
     skein_compile_on_host(${arg_HOST_FILES})
-    skein_note_sources(device ${arg_FILES} ${arg_KERNEL_FILES})
+    skein_note_sources(device ${arg_KERNEL_FILES})
+    if(arg_UNITE)
+      skein_unite_for_device(${name})
+      skein_note_sources(united-${name} ${arg_FILES})
+    else()
+      skein_note_sources(device ${arg_FILES})
+    endif()
   endif()
   # The program's layers include no Kokkos, but get its options (-fopenmp) from those below.
   if(is_host AND NOT is_program)

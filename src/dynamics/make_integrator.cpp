@@ -4,6 +4,7 @@
 #include <skein/solvers/explicit_runge_kutta.hpp>
 #include <skein/solvers/method_selection.hpp>
 #include <skein/solvers/rkc2.hpp>
+#include <skein/solvers/selected_integrator.hpp>
 #include <skein/solvers/spectral_radius.hpp>
 #include <skein/solvers/tr_bdf2.hpp>
 

@@ -1,7 +1,7 @@
 #include "physics/flow_table.hpp"
 
 #include <skein/core/error.hpp>
-#include <skein/physics/linear_flow.hpp>
+#include <skein/physics/velocity_gradient.hpp>
 
 #include <fmt/format.h>
 

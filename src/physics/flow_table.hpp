@@ -2,7 +2,7 @@
 
 #include <skein/scene/scene_config.hpp>
 
-#include "kernels/flow_velocity.hpp"
+#include "kernels/flow_term.hpp"
 
 #include <string>
 

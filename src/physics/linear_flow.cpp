@@ -15,22 +15,6 @@ Vec3 as_vector(const std::array<double, 3>& row) { return {row[0], row[1], row[2
 
 }  // namespace
 
-VelocityGradient make_shear_gradient(const double rate) {
-  return {{{0.0, rate, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
-}
-
-VelocityGradient make_planar_extension_gradient(const double rate) {
-  return {{{-rate, 0.0, 0.0}, {0.0, rate, 0.0}, {0.0, 0.0, 0.0}}};
-}
-
-VelocityGradient make_uniaxial_extension_gradient(const double rate) {
-  return {{{rate, 0.0, 0.0}, {0.0, -0.5 * rate, 0.0}, {0.0, 0.0, -0.5 * rate}}};
-}
-
-VelocityGradient make_rotation_gradient(const double rate) {
-  return {{{0.0, -rate, 0.0}, {rate, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
-}
-
 void LinearFlow::add_velocity(double /*time*/, const ConstVectors& position, const Vectors& velocity) const {
   FlowTerms terms;
   terms.n_terms = 1;

@@ -1,4 +1,6 @@
-#include <skein/physics/make_mobility.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
+#include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/physics.hpp>
 
 #include "force_table.hpp"
@@ -7,6 +9,16 @@
 #include <utility>
 
 namespace skein {
+namespace {
+
+/// The mobility a scene asks for.
+std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene) {
+  const MobilityChoice choice = choose_mobility(scene);
+  if (choice.is_direct) return std::make_unique<DirectMobility>(scene.fluid.viscosity, choice.precision);
+  return std::make_unique<FmmMobility>(scene.fluid.viscosity, choice.fmm);
+}
+
+}  // namespace
 
 void Physics::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
   Kokkos::deep_copy(ExecSpace(), force, 0.0);

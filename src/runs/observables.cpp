@@ -1,7 +1,6 @@
 #include "runs/observables.hpp"
 
 #include <skein/analysis/centreline.hpp>
-#include <skein/analysis/section_centroids.hpp>
 #include <skein/analysis/shape.hpp>
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include <skein/core/version.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/spring_network.hpp>
+#include <skein/physics/flow_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/words.hpp>
 #include <skein/solvers/rkc2_stages.hpp>
@@ -65,21 +66,18 @@ double guess_spectral_radius(const SceneConfig& scene) {
 
 }  // namespace
 
-TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text, const Physics& physics) {
-  const std::vector<Fiber>& fibers = physics.fibers;
+TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text,
+                                 const std::vector<Fiber>& fibers) {
+  const FlowSummary flow = summarize_flow(scene.flows);
   TrajectoryLayout layout;
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
   for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
-  layout.attributes = {{"title", scene.title},
-                       {"scene", scene_text},
-                       {"version", version()},
-                       {"commit", commit()},
-                       {"build", describe_build()},
-                       {"backend", describe_backend()},
-                       {"flow", physics.flow->describe()},
-                       {"integrator", word_of(scene.time.method)}};
-  const double rate = physics.flow->typical_rate();
+  layout.attributes = {{"title", scene.title},      {"scene", scene_text},
+                       {"version", version()},      {"commit", commit()},
+                       {"build", describe_build()}, {"backend", describe_backend()},
+                       {"flow", flow.description},  {"integrator", word_of(scene.time.method)}};
+  const double rate = flow.typical_rate;
   std::vector<double> length, rigidity, number, number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
@@ -98,18 +96,18 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   return layout;
 }
 
-std::string describe_run(const SceneConfig& scene, const Physics& physics, const std::string& integrator,
-                         const EvaluationCost& cost) {
-  const double n_nodes = count_nodes(physics.fibers);
+std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
+                         const std::string& integrator, const EvaluationCost& cost) {
+  const FlowSummary flow = summarize_flow(scene.flows);
+  const double n_nodes = count_nodes(fibers);
   const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
   const double bytes = n_frames * n_nodes * 3.0 * bytes_per_number(scene.output.precision);
   const double radius = guess_spectral_radius(scene);
-  const double evaluations = expect_evaluations(scene, physics.time_scale(), radius);
+  const double evaluations = expect_evaluations(scene, flow.time_scale, radius);
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
-  if (const std::string forces = physics.describe_forces(); !forces.empty())
-    text += fmt::format("forces: {}\n", forces);
-  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", physics.flow->describe(),
+  if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
+  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", flow.description,
                       describe_choice(choose_mobility(scene), scene), integrator, scene.time.end);
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,

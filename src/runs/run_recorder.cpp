@@ -36,7 +36,7 @@ RunRecorder::RunRecorder(const SceneConfig& scene, const RunFolder& folder, cons
       physics_(physics),
       ledger_(ledger),
       messages_(messages),
-      trajectory_(folder, describe_layout(scene, read_file(folder.scene()), physics), scene.output, start),
+      trajectory_(folder, describe_layout(scene, read_file(folder.scene()), physics.fibers), scene.output, start),
       guard_(physics.fibers, physics.has_force_between_fibers()),
       frame_position_("skein::RunRecorder::frame_position", physics.blob.extent(0)) {}
 

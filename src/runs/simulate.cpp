@@ -22,7 +22,8 @@ std::string describe_dry_run(const SceneConfig& scene) {
   FiberDynamics dynamics(physics);
   const auto integrator = make_integrator(scene, physics, dynamics);
   const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
-  return describe_run(scene, physics, integrator->describe(), time_evaluation(dynamics, position));
+  return describe_run(scene, physics.fibers, physics.describe_forces(), integrator->describe(),
+                      time_evaluation(dynamics, position));
 }
 
 }  // namespace skein

@@ -68,7 +68,7 @@ void Simulation::introduce() {
   before.bring_back(dynamics_);
   physics_.mobility->take_messages();
   ledger_.exclude_evaluations();
-  say(describe_run(scene_, physics_, integrator_->describe(), cost));
+  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost));
 }
 
 ExitCode Simulation::run() {

@@ -16,13 +16,6 @@ constexpr double min_step_ratio = 1e-12;  // of the largest step allowed
 
 }  // namespace
 
-/// A fiber along the flow turns slowly, and what it is off by then grows with the square of its aspect ratio until it
-/// flips: no local estimate sees that. The bound makes the error at the end fall with the tolerance (L = 0.139 orbit at
-/// t = 6: 2.3e-4 L with steps up to 0.1, as the square of the bound).
-double largest_controlled_step(const ControlOptions& options) {
-  return std::min(options.max_step, 12.0 * std::sqrt(options.tolerance) * options.time_scale);
-}
-
 ControlledIntegrator::ControlledIntegrator(RightHandSide& rhs, const ControlOptions& options, std::string name,
                                            const double order, const int n_nodes)
     : Integrator(rhs), options_(options), name_(std::move(name)), n_nodes_(n_nodes), control_(order) {

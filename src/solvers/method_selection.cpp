@@ -1,12 +1,10 @@
 #include <skein/solvers/method_selection.hpp>
 #include <skein/solvers/rkc2_stages.hpp>
-#include <skein/solvers/tr_bdf2.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace skein {
 namespace {
@@ -44,7 +42,7 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
 
   const double implicit_dt =
       is_fixed ? options.fixed_step
-               : std::min(implicit_step_share * largest, TrBdf2::largest_step_ratio * options.time_scale);
+               : std::min(implicit_step_share * largest, trbdf2_largest_step_ratio * options.time_scale);
   const double evaluations = implicit_evaluations(options, implicit_dt, spectral_radius);
   // Each product is preconditioned, and so is the error of the step.
   const double work =
@@ -54,13 +52,6 @@ MethodSelection select_method(const ControlOptions& options, const double spectr
           fmt::format("{}, {:.0f} per unit of time; one of {:.3g} takes TR-BDF2 the work of {:.0f}, {:.0f} per unit of "
                       "time",
                       stiffness, stabilized_rate, implicit_dt, work, implicit_rate)};
-}
-
-SelectedIntegrator::SelectedIntegrator(RightHandSide& rhs, std::unique_ptr<Integrator> integrator, std::string reason)
-    : Integrator(rhs), integrator_(std::move(integrator)), reason_(std::move(reason)) {}
-
-std::string SelectedIntegrator::describe() const {
-  return integrator_->describe() + "\n  chosen automatically: " + reason_;
 }
 
 }  // namespace skein

@@ -51,7 +51,7 @@ void TrBdf2::prepare(double, const ConstVectors&, const ConstVectors&) {
 }
 
 double TrBdf2::largest_step() const {
-  return std::min(ControlledIntegrator::largest_step(), largest_step_ratio * options_.time_scale);
+  return std::min(ControlledIntegrator::largest_step(), trbdf2_largest_step_ratio * options_.time_scale);
 }
 
 void TrBdf2::factorize(const double scale) {

@@ -1,7 +1,6 @@
 // The L = 0.139 half turn: reference values of tests/reference/orbit.py, which agree with the snapshot times of
 // LaGrone, Cortez, Yan and Fauci 2019 (figure 2, first column).
 
-#include <skein/analysis/section_centroids.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/solvers/euler.hpp>
 

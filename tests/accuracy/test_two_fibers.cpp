@@ -1,5 +1,4 @@
 #include <skein/analysis/centreline.hpp>
-#include <skein/analysis/section_centroids.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/physics/background_flow.hpp>
 #include <skein/physics/direct_mobility.hpp>

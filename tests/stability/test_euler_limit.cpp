@@ -1,7 +1,6 @@
 // Forward Euler's limit for the paper's fiber: 2 over the spectral radius of the spring-mobility operator, where
 // sections ovalize with alternating sign.
 
-#include <skein/analysis/section_centroids.hpp>
 #include <skein/core/error.hpp>
 #include <skein/solvers/euler.hpp>
 #include <skein/solvers/spectral_radius.hpp>

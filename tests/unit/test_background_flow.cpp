@@ -2,6 +2,7 @@
 #include <skein/physics/background_flow.hpp>
 #include <skein/physics/linear_flow.hpp>
 #include <skein/physics/scene_flow.hpp>
+#include <skein/physics/velocity_gradient.hpp>
 #include <skein/scene/scene_file.hpp>
 #include <skein/scene/words.hpp>
 

@@ -1,5 +1,4 @@
 #include <skein/analysis/centreline.hpp>
-#include <skein/analysis/section_centroids.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,17 +1,14 @@
 #pragma once
 
 #include <skein/arrays/types.hpp>
+#include <skein/physics/velocity_gradient.hpp>
 #include <skein/scene/scene_config.hpp>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace skein {
-
-/// Row i, column j: d u_i / d x_j, 1 / time.
-using VelocityGradient = std::array<std::array<double, 3>, 3>;
 
 /// The flow far from all fibers.
 class BackgroundFlow {

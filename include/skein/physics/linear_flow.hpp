@@ -4,18 +4,6 @@
 
 namespace skein {
 
-/// u = (rate y, 0, 0).
-VelocityGradient make_shear_gradient(double rate);
-
-/// u = rate (-x, y, 0): compression along x.
-VelocityGradient make_planar_extension_gradient(double rate);
-
-/// u = rate (x, -y/2, -z/2): extension along x.
-VelocityGradient make_uniaxial_extension_gradient(double rate);
-
-/// u = rate (-y, x, 0): a rigid body that turns about z with this angular velocity.
-VelocityGradient make_rotation_gradient(double rate);
-
 /// u = G (x - origin), the same at all times: for programs that need a gradient no scene has a word for.
 class LinearFlow : public BackgroundFlow {
  public:

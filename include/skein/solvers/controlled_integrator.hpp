@@ -1,24 +1,12 @@
 #pragma once
 
+#include <skein/solvers/control_options.hpp>
 #include <skein/solvers/integrator.hpp>
 #include <skein/solvers/step_control.hpp>
 
 #include <string>
 
 namespace skein {
-
-/// What a run under error control may choose.
-struct ControlOptions {
-  double tolerance = 1e-4;    ///< error per unit time over the length scale
-  double length_scale = 1.0;  ///< length
-  double detail_scale = 0.0;  ///< node spacing, length; 0: not known
-  double time_scale = 1.0;    ///< of the flow, 1 / shear rate; time
-  double fixed_step = 0.0;    ///< > 0 switches the error control off
-  double max_step = 0.1;      ///< time
-};
-
-/// The largest step that error control may take: max_step, or less where the tolerance asks for it.
-double largest_controlled_step(const ControlOptions& options);
 
 /// One-step methods that estimate their error: what they share is here, the attempt of a step is theirs. A rejected
 /// attempt leaves no trace but in the controller.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <skein/solvers/controlled_integrator.hpp>
+#include <skein/core/time_method.hpp>
+#include <skein/solvers/control_options.hpp>
 
-#include <memory>
 #include <string>
 
 namespace skein {
@@ -18,24 +18,5 @@ struct MethodSelection {
 /// @param preconditioning    once; negative where there is no linearization
 MethodSelection select_method(const ControlOptions& options, double spectral_radius, double factorization,
                               double preconditioning);
-
-/// An integrator that was chosen, and says so.
-class SelectedIntegrator final : public Integrator {
- public:
-  SelectedIntegrator(RightHandSide& rhs, std::unique_ptr<Integrator> integrator, std::string reason);
-
-  void interpolate(const double time, const Vectors& position) const override {
-    integrator_->interpolate(time, position);
-  }
-  void visit_memory(MemoryVisitor& visitor) override { integrator_->visit_memory(visitor); }
-  TimeMethod method() const override { return integrator_->method(); }
-  std::string describe() const override;
-
- private:
-  StepReport take_step(State& state, const double end) override { return integrator_->advance(state, end); }
-
-  std::unique_ptr<Integrator> integrator_;
-  std::string reason_;
-};
 
 }  // namespace skein

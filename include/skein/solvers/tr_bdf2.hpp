@@ -17,10 +17,6 @@ class TrBdf2 final : public ControlledIntegrator {
   /// @throws Error(internal) if the right-hand side offers no linearization
   TrBdf2(RightHandSide& rhs, const ControlOptions& options, int n_nodes);
 
-  /// The largest step that is tried, as a part of the flow's time scale: Newton's method needs more and more iterations
-  /// beyond (39 a step instead of 7 to 10 at a tolerance of 1e-2, L = 0.523), or fails.
-  static constexpr double largest_step_ratio = 0.4;
-
   void visit_memory(MemoryVisitor& visitor) override;
   TimeMethod method() const override { return TimeMethod::trbdf2; }
   std::string describe() const override;
