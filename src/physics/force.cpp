@@ -10,8 +10,10 @@ void Force::add_moments(const std::vector<Fiber>& fibers, const double time, con
   add_forces(time, position, force);
   const std::vector<Vec3> x = to_host(position), f = to_host(ConstVectors(force));
   for (std::size_t i = 0; i < fibers.size(); ++i) {
-    const auto first = static_cast<std::size_t>(fibers[i].first_node), n = static_cast<std::size_t>(fibers[i].n_nodes());
-    const SymmetricTensor part = compute_symmetric_moment(std::span(x).subspan(first, n), std::span(f).subspan(first, n));
+    const auto first = static_cast<std::size_t>(fibers[i].first_node),
+               n = static_cast<std::size_t>(fibers[i].n_nodes());
+    const SymmetricTensor part =
+        compute_symmetric_moment(std::span(x).subspan(first, n), std::span(f).subspan(first, n));
     for (std::size_t c = 0; c < part.size(); ++c) moment[i][c] += part[c];
   }
 }

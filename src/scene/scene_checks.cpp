@@ -16,6 +16,8 @@ namespace skein {
 namespace {
 
 constexpr double n_nodes_allowed = 1e8;
+// Components so small that their squares vanish cannot be normalized.
+constexpr double smallest_direction = 1e-100;
 constexpr double n_copies_allowed = 1e4;
 constexpr double n_frames_allowed = 1e7;
 constexpr double n_steps_allowed = 1e12;
@@ -27,8 +29,7 @@ double compute_node_spacing(const FiberConfig& fiber) {
 
 void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems, std::vector<Problem>& warnings) {
-  // Components so small that their squares vanish cannot be normalized either.
-  if (!(norm(fiber.direction) >= 1e-100)) {
+  if (!(norm(fiber.direction) >= smallest_direction)) {
     reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
   }
   const double spacing = compute_node_spacing(fiber);
@@ -195,6 +196,8 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
   }
   if (reader.is_sound("placement")) check_placement(scene.placement, reader, problems);
   if (reader.is_sound("repulsion")) check_repulsion(scene, reader, problems, warnings);
+  if (reader.is_sound("gravity") && !(norm(scene.gravity.direction) >= smallest_direction))
+    reader.add(problems, "gravity.direction", "gravity.direction is zero: it points nowhere");
   check_node_count(scene, reader, problems);
   if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
   if (!reader.is_sound("time")) return;

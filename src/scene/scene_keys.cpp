@@ -51,6 +51,18 @@ void visit_repulsion(KeyVisitor& visitor, RepulsionConfig& repulsion) {
   visitor.end_table();
 }
 
+void visit_gravity(KeyVisitor& visitor, GravityConfig& gravity) {
+  visitor.begin_table(
+      {"gravity", false,
+       "The weight of fibers in the fluid, less the fluid's. A fiber that settles drags the fluid along: "
+       "velocities fall off like 1 / distance, and a crowd settles faster than one."});
+  visitor.number({"weight", "force / length", zero_or_more(),
+                  "excess weight of a length of fiber, shared equally by its nodes; 0: none"},
+                 gravity.weight);
+  visitor.vector({"direction", "", any_number(), "where it pulls to; its length does not matter"}, gravity.direction);
+  visitor.end_table();
+}
+
 void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics) {
   visitor.begin_table({"hydrodynamics", false, "How velocities follow from forces."});
   visitor.choice({"method", "", {}, "how the sum over nodes is made"}, words_of<SumMethod>(), hydrodynamics.method);
@@ -121,6 +133,7 @@ void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
   for (const RepeatableTable& table : repeatable_tables()) table.visit(visitor, scene);
   visit_placement(visitor, scene.placement);
   visit_repulsion(visitor, scene.repulsion);
+  visit_gravity(visitor, scene.gravity);
   visit_hydrodynamics(visitor, scene.hydrodynamics);
   visit_time(visitor, scene.time);
   visit_output(visitor, scene.output);

@@ -17,6 +17,10 @@ inline const ForceRow force_rows[] = {
      [](SceneConfig& scene) {
        scene.repulsion = {2.3, 0.0071};
      }},
+    {"gravity",
+     [](SceneConfig& scene) {
+       scene.gravity = {1.9, {0.3, -0.5, 0.2}};
+     }},
 };
 
 }  // namespace skein::test

@@ -86,6 +86,12 @@ struct RepulsionConfig {
   double range = 0.0;     ///< length; 0: the radius of the thinnest fiber
 };
 
+/// The weight of fibers in the fluid, less the fluid's.
+struct GravityConfig {
+  double weight = 0.0;             ///< of a length of fiber, force / length; 0: none
+  Vec3 direction{0.0, 0.0, -1.0};  ///< any length but zero
+};
+
 struct HydrodynamicsConfig {
   SumMethod method = SumMethod::automatic;
   Precision precision = Precision::automatic;  ///< arithmetic of a pair
@@ -124,6 +130,7 @@ struct SceneConfig {
   std::vector<FiberConfig> fibers;
   PlacementConfig placement;
   RepulsionConfig repulsion;
+  GravityConfig gravity;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;

@@ -1,0 +1,81 @@
+#include <skein/core/error.hpp>
+
+#include "force_table.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace skein {
+namespace {
+
+/// What each node weighs: a fiber's excess weight per length is shared equally by its nodes.
+std::vector<double> make_weights(const std::vector<Fiber>& fibers, const double per_length) {
+  std::vector<double> weight;
+  for (const Fiber& fiber : fibers)
+    weight.insert(weight.end(), static_cast<std::size_t>(fiber.n_nodes()),
+                  per_length * fiber.spacing() / fiber.config.nodes_per_section);
+  return weight;
+}
+
+/// The weight of fibers in the fluid, less the fluid's: the same everywhere and at all times. Its sum is not zero, so
+/// that the fluid as a whole is dragged along and velocities fall off like 1 / distance only.
+class Gravity final : public Force {
+ public:
+  Gravity(const std::vector<Fiber>& fibers, const double weight, const Vec3 direction)
+      : weight_(weight),
+        direction_(direction / norm(direction)),
+        node_weight_(to_device("skein::Gravity::node_weight", make_weights(fibers, weight))),
+        node_energy_("skein::Gravity::node_energy", node_weight_.extent(0)) {
+    for (const Fiber& fiber : fibers) n_nodes_.push_back(fiber.n_nodes());
+  }
+
+  ForcePromises promises() const override { return {.is_conservative = true, .is_steady = true}; }
+
+  void add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const override {
+    SKEIN_REQUIRE(position.extent(0) == node_weight_.extent(0) && force.extent(0) == position.extent(0),
+                  "positions and forces are those of the fibers' nodes");
+    const ConstScalars weight = node_weight_;
+    const Vec3 down = direction_;
+    Kokkos::parallel_for(
+        "skein::add_gravity", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, force.extent_int(0)),
+        KOKKOS_LAMBDA(const int i) { store(force, i, load(force, i) + weight(i) * down); });
+  }
+
+  void add_force_changes(double /*time*/, const ConstVectors& /*position*/, const ConstVectors& /*displacement*/,
+                         const Vectors& /*change*/) const override {}
+
+  void add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const override {
+    SKEIN_REQUIRE(energy.size() == n_nodes_.size(), "one energy for each fiber");
+    const ConstScalars weight = node_weight_;
+    const Scalars of_node = node_energy_;
+    const Vec3 down = direction_;
+    Kokkos::parallel_for(
+        "skein::compute_gravity_energy", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, position.extent_int(0)),
+        KOKKOS_LAMBDA(const int i) { of_node(i) = -weight(i) * dot(down, load(position, i)); });
+    const std::vector<double> part = to_host(ConstScalars(node_energy_));
+    auto node = part.begin();
+    for (std::size_t f = 0; f < energy.size(); node += n_nodes_[f++])
+      energy[f] += std::accumulate(node, node + n_nodes_[f], 0.0);
+  }
+
+  std::string describe() const override {
+    return fmt::format("gravity, {:g} a length towards ({:g}, {:g}, {:g})", weight_, direction_.x, direction_.y,
+                       direction_.z);
+  }
+
+ private:
+  double weight_;
+  Vec3 direction_;
+  Scalars node_weight_, node_energy_;  ///< [n_nodes]
+  std::vector<int> n_nodes_;           ///< [n_fibers]
+};
+
+}  // namespace
+
+void append_gravity(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
+  const GravityConfig& gravity = scene.gravity;
+  if (gravity.weight > 0.0) forces.push_back(std::make_unique<Gravity>(fibers, gravity.weight, gravity.direction));
+}
+
+}  // namespace skein
