@@ -16,6 +16,7 @@ using ForceList = std::vector<std::unique_ptr<Force>>;
 void append_springs(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_gravity(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
+void append_tethers(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 
 /// The forces of a scene in the order of the table.
 ForceList make_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers);

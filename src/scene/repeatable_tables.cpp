@@ -81,6 +81,18 @@ void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
 }
 
 /// @param instances  the scene's list of them
+void visit_tether(KeyVisitor& visitor, TetherConfig& tether) {
+  visitor.integer({"fiber", "", between(0, 1e9), "number of the fiber, from 0, as the scene in the run folder has it"},
+                  tether.fiber);
+  visitor.integer({"section", "", between(-1e9, 1e9), "section that is held, from 0; -1 is the last"}, tether.section);
+  visitor.number({"stiffness", "force / length", above_zero(), "force of the spring over the distance of its ends"},
+                 tether.stiffness);
+  visitor.vector({"point", "length", any_number(), "where it holds the section at t = 0"}, tether.point);
+  visitor.vector({"velocity", "length / time", any_number(), "of that point"}, tether.velocity);
+  visitor.vector({"swing", "length", any_number(), "added to the point times sin(angular_frequency t)"}, tether.swing);
+  visitor.number({"angular_frequency", "radians / time", any_number(), "of the swing"}, tether.angular_frequency);
+}
+
 /// @param visit_one  shows the keys of one
 template <class Config>
 RepeatableTable make_table(const std::string& name, const WhenAbsent when_absent,
@@ -108,7 +120,11 @@ const std::vector<RepeatableTable>& repeatable_tables() {
           "The flow that would be there without fibers; [[flow]] once for each of several, whose velocities are added. "
           "r is the rate at the time, x, y and z are measured from the center."),
       make_table("fiber", WhenAbsent::is_an_error, &SceneConfig::fibers, visit_fiber,
-                 "A tube of surface nodes, straight at rest; [[fiber]] once for each of several.")};
+                 "A tube of surface nodes, straight at rest; [[fiber]] once for each of several."),
+      make_table(
+          "tether", WhenAbsent::stands_for_none, &SceneConfig::tethers, visit_tether,
+          "A spring that holds a section of a fiber at a point of space, which may move; [[tether]] once for each "
+          "of several.")};
   return tables;
 }
 

@@ -21,6 +21,12 @@ inline const ForceRow force_rows[] = {
      [](SceneConfig& scene) {
        scene.gravity = {1.9, {0.3, -0.5, 0.2}};
      }},
+    {"tether",
+     [](SceneConfig& scene) {
+       scene.tethers = {{0, 2, 1.3, {0.01, 0.02, -0.03}, {0.2, 0.0, 0.1}, {0.0, 0.02, 0.0}, 3.1},
+                        {1, -1, 0.7, {0.0, -0.01, 0.02}, {0.0, 0.3, 0.0}, {}, 0.0},
+                        {0, 2, 0.4, {}, {}, {0.01, 0.0, 0.0}, 2.0}};
+     }},
 };
 
 }  // namespace skein::test

@@ -92,6 +92,16 @@ struct GravityConfig {
   Vec3 direction{0.0, 0.0, -1.0};  ///< any length but zero
 };
 
+/// A spring that holds a section of a fiber at a point, which may move:
+/// point + velocity t + swing sin(angular_frequency t). Its length at rest is zero.
+struct TetherConfig {
+  int fiber = 0;
+  int section = 0;         ///< from 0, or from the end as -1
+  double stiffness = 1.0;  ///< force / length
+  Vec3 point{0.0, 0.0, 0.0}, velocity{0.0, 0.0, 0.0}, swing{0.0, 0.0, 0.0};
+  double angular_frequency = 0.0;  ///< radians / time
+};
+
 struct HydrodynamicsConfig {
   SumMethod method = SumMethod::automatic;
   Precision precision = Precision::automatic;  ///< arithmetic of a pair
@@ -131,6 +141,7 @@ struct SceneConfig {
   PlacementConfig placement;
   RepulsionConfig repulsion;
   GravityConfig gravity;
+  std::vector<TetherConfig> tethers;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;
