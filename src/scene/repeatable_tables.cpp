@@ -93,6 +93,18 @@ void visit_tether(KeyVisitor& visitor, TetherConfig& tether) {
   visitor.number({"angular_frequency", "radians / time", any_number(), "of the swing"}, tether.angular_frequency);
 }
 
+void visit_torque(KeyVisitor& visitor, TorqueConfig& torque) {
+  visitor.integer({"fiber", "", between(0, 1e9), "number of the fiber, from 0, as the scene in the run folder has it"},
+                  torque.fiber);
+  visitor.integer({"section", "", between(-1e9, 1e9), "section that is turned, from 0; -1 is the last"},
+                  torque.section);
+  visitor.vector({"torque", "force * length", any_number(), "on the section at t = 0, in directions of space"},
+                 torque.torque);
+  visitor.vector({"angular_velocity", "radians / time", any_number(),
+                  "at which the torque itself turns, about the direction of this vector; zero: a constant torque"},
+                 torque.angular_velocity);
+}
+
 /// @param visit_one  shows the keys of one
 template <class Config>
 RepeatableTable make_table(const std::string& name, const WhenAbsent when_absent,
@@ -124,7 +136,9 @@ const std::vector<RepeatableTable>& repeatable_tables() {
       make_table(
           "tether", WhenAbsent::stands_for_none, &SceneConfig::tethers, visit_tether,
           "A spring that holds a section of a fiber at a point of space, which may move; [[tether]] once for each "
-          "of several.")};
+          "of several."),
+      make_table("torque", WhenAbsent::stands_for_none, &SceneConfig::torques, visit_torque,
+                 "A torque on a section of a fiber, constant or turning; [[torque]] once for each of several.")};
   return tables;
 }
 

@@ -102,6 +102,14 @@ struct TetherConfig {
   double angular_frequency = 0.0;  ///< radians / time
 };
 
+/// A torque on a section of a fiber, as forces on its nodes whose sum is zero; it turns about angular_velocity.
+struct TorqueConfig {
+  int fiber = 0;
+  int section = 0;                       ///< from 0, or from the end as -1
+  Vec3 torque{0.0, 0.0, 0.0};            ///< at t = 0, force * length
+  Vec3 angular_velocity{0.0, 0.0, 0.0};  ///< of its direction, radians / time
+};
+
 struct HydrodynamicsConfig {
   SumMethod method = SumMethod::automatic;
   Precision precision = Precision::automatic;  ///< arithmetic of a pair
@@ -142,6 +150,7 @@ struct SceneConfig {
   RepulsionConfig repulsion;
   GravityConfig gravity;
   std::vector<TetherConfig> tethers;
+  std::vector<TorqueConfig> torques;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;
