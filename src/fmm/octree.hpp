@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skein/arrays/types.hpp>
+
 #include "fmm/octree_cube.hpp"
 
 #include <vector>

@@ -47,6 +47,7 @@ void add_forces(Columns& columns, const std::vector<ForceRecord>& forces) {
   columns.add("elastic_power", "force*length/time", [&](const std::size_t i) { return forces[i].power.elastic(); });
   columns.add("background_power", "force*length/time", [&](const std::size_t i) { return forces[i].power.background; });
   columns.add("dissipation", "force*length/time", [&](const std::size_t i) { return forces[i].power.dissipation; });
+  columns.add("drive_power", "force*length/time", [&](const std::size_t i) { return forces[i].power.drive; });
   constexpr const char* names[3][3] = {
       {"stresslet_xx", "stresslet_xy", "stresslet_xz"}, {"", "stresslet_yy", "stresslet_yz"}, {"", "", "stresslet_zz"}};
   for (int a = 0; a < 3; ++a)

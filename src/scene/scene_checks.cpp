@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 
+#include "scene_numbers.hpp"
 #include "scene_value.hpp"
 
 #include <fmt/format.h>
@@ -16,16 +17,9 @@ namespace skein {
 namespace {
 
 constexpr double n_nodes_allowed = 1e8;
-// Components so small that their squares vanish cannot be normalized.
-constexpr double smallest_direction = 1e-100;
 constexpr double n_copies_allowed = 1e4;
 constexpr double n_frames_allowed = 1e7;
 constexpr double n_steps_allowed = 1e12;
-
-// The chord between neighbouring nodes of a section, which is also the distance of sections.
-double compute_node_spacing(const FiberConfig& fiber) {
-  return 2.0 * fiber.radius * std::sin(std::numbers::pi / fiber.nodes_per_section);
-}
 
 void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems, std::vector<Problem>& warnings) {
@@ -74,20 +68,6 @@ void check_placement(const PlacementConfig& placement, const SceneReader& reader
                fmt::format("placement.grid asks for {:g} fibers, more than {:g}", n.x * n.y * n.z, n_copies_allowed));
 }
 
-/// Fibers that a placement makes of all those in the list.
-double count_fibers(const SceneConfig& scene) {
-  const PlacementConfig& placement = scene.placement;
-  switch (placement.kind) {
-    case PlacementKind::as_written:
-      return static_cast<double>(scene.fibers.size());
-    case PlacementKind::grid:
-      return placement.grid.x * placement.grid.y * placement.grid.z;
-    case PlacementKind::random:
-      return placement.count;
-  }
-  throw Error(ExitCode::internal, "count_fibers knows no such kind of placement");
-}
-
 /// Copies that placement makes of the fiber at this place of the list.
 double count_copies(const SceneConfig& scene, const std::size_t fiber) {
   const double n_fibers = static_cast<double>(scene.fibers.size());
@@ -105,39 +85,6 @@ void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::
         problems, reader.path_of("fiber", i) + ".sections",
         fmt::format("with this fiber the scene has {:.3g} nodes (sections * nodes_per_section), more than {:.0e}",
                     n_nodes, n_nodes_allowed));
-    return;
-  }
-}
-
-// Sections of one fiber repel each other from 10 radii of arclength on, and a tight bend brings these to a gap of
-// about 4. Where a range is so short that sections see less than their spacing, fibers feel rough.
-void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
-                     std::vector<Problem>& warnings) {
-  if (scene.repulsion.strength == 0.0) return;
-  double thinnest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
-    if (!reader.is_sound(reader.path_of("fiber", i))) return;
-    thinnest = std::min(thinnest, scene.fibers[i].radius);
-  }
-  const double range = scene.repulsion.range;
-  constexpr double least_radii = 0.01, most_radii = 4.0;
-  if (range > 0.0 && (range < least_radii * thinnest || range > most_radii * thinnest)) {
-    reader.add(
-        problems, "repulsion.range",
-        fmt::format("repulsion.range {} is not between {:g} and {:g}, {:g} and {:g} radii of the thinnest fiber",
-                    format_number(range), least_radii * thinnest, most_radii * thinnest, least_radii, most_radii));
-    return;
-  }
-  for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
-    const FiberConfig& fiber = scene.fibers[i];
-    const double spacing = compute_node_spacing(fiber);
-    const double half_width = std::sqrt(4.0 * fiber.radius * (range > 0.0 ? range : thinnest));
-    if (half_width >= spacing) continue;
-    reader.add(
-        warnings, "repulsion.range",
-        fmt::format("repulsion.range is so short that a section of {} sees others within {:.3g} of it only, less "
-                    "than their distance {:.3g}: fibers feel each other's sections one by one",
-                    reader.path_of("fiber", i), half_width, spacing));
     return;
   }
 }
@@ -195,9 +142,7 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
     if (reader.is_sound(path)) check_flow(scene.flows[i], path, reader, problems);
   }
   if (reader.is_sound("placement")) check_placement(scene.placement, reader, problems);
-  if (reader.is_sound("repulsion")) check_repulsion(scene, reader, problems, warnings);
-  if (reader.is_sound("gravity") && !(norm(scene.gravity.direction) >= smallest_direction))
-    reader.add(problems, "gravity.direction", "gravity.direction is zero: it points nowhere");
+  check_forces(scene, reader, problems, warnings);
   check_node_count(scene, reader, problems);
   if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
   if (!reader.is_sound("time")) return;
