@@ -1,5 +1,3 @@
-#define EIGEN_DONT_PARALLELIZE  // the last bits must not depend on the number of threads
-
 #include "dynamics/near_damping.hpp"
 
 #include <skein/arrays/types.hpp>

@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/mobility_choice.hpp>
 
 #include "kernels/node_checks.hpp"
 #include "kernels/stokeslet_direct.hpp"
@@ -47,16 +48,6 @@ void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& ta
                                     precision_);
 }
 
-std::string DirectMobility::describe() const {
-  switch (precision_) {
-    case Precision::in_double:
-      return "direct sum, pairs in double precision";
-    case Precision::in_single:
-      return "direct sum, pairs in single precision (about 1e-6)";
-    case Precision::automatic:
-      break;
-  }
-  throw Error(ExitCode::internal, "a direct sum has no precision");
-}
+std::string DirectMobility::describe() const { return describe_direct_sum(precision_); }
 
 }  // namespace skein

@@ -110,9 +110,20 @@ MobilityChoice choose_mobility(const SceneConfig& scene) {
   throw Error(ExitCode::internal, "choose_mobility knows no such method");
 }
 
+std::string describe_direct_sum(const Precision precision) {
+  switch (precision) {
+    case Precision::automatic:
+    case Precision::in_double:
+      return "direct sum, pairs in double precision";
+    case Precision::in_single:
+      return "direct sum, pairs in single precision (about 1e-6)";
+  }
+  throw Error(ExitCode::internal, "describe_direct_sum knows no such precision");
+}
+
 std::string describe_choice(const MobilityChoice& choice, const SceneConfig& scene) {
   std::string text = choice.is_direct
-                         ? DirectMobility(scene.fluid.viscosity, choice.precision).describe()
+                         ? describe_direct_sum(choice.precision)
                          : describe_fmm_plan(choice.fmm, choose_fmm_plan(choice.fmm, measure_size(scene).max_blob, 0));
   if (!choice.is_direct)
     text += choice.fmm.check_every > 0 ? fmt::format("; checked every {} evaluations", choice.fmm.check_every)

@@ -20,7 +20,7 @@ TestOrder read_test_order(const char* variable) {
 void install_kill_order() {
   const TestOrder order = read_test_order("SKEIN_TEST_KILL");
   if (order.number <= 0) return;
-  observe_milestones([order](const std::string_view name) mutable {
+  observe_milestones([order = TestOrder(order)](const std::string_view name) mutable {
     if (name == order.name && --order.number == 0) std::raise(SIGKILL);
   });
 }

@@ -59,7 +59,8 @@ class CommentedWriter : public WritingVisitor {
   void begin_table(const Table& table) override {
     if (table.name.empty()) return;
     margin_ = table.is_absent_by_default ? "# " : "";
-    written += fmt::format("\n{0}# {1}\n{0}[{2}]\n", margin_, describe_table(table), table.name);
+    written += table.is_absent_by_default ? "#\n" : "\n";
+    written += fmt::format("{0}# {1}\n{0}[{2}]\n", margin_, describe_table(table), table.name);
   }
 
  protected:

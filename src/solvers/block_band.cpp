@@ -1,5 +1,3 @@
-#define EIGEN_DONT_PARALLELIZE  // its blocking, and so the last bits, would depend on the number of threads
-
 #include <skein/arrays/types.hpp>
 #include <skein/core/simd.hpp>
 #include <skein/solvers/block_band.hpp>

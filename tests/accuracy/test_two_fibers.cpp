@@ -223,7 +223,7 @@ TEST(RepelledFibers, HaveEnergyBalancesThatCloseAsTheStepsDo) {
     EXPECT_LT(run.gap(), repelling.range);
     const auto repulsion = [&run] {
       std::vector<double> energy(2);
-      run.dynamics.repulsion()->add_energies(run.state.position, energy);
+      run.physics.forces.back()->add_energies(run.state.time, run.state.position, energy);
       return energy[0] + energy[1];
     };
     const double before = repulsion(), all_before = run.energy();
@@ -272,7 +272,7 @@ TEST(RepelledFibers, AreMultipliedByTheChangeOfAllTheirForces) {
   DirectMobility(viscosity, Precision::in_double)
       .add_velocity({x, to_device("force", force), to_device("blob", make_blobs(run.fibers))}, x, expected);
   Linearization& a = *run.dynamics.linearization();
-  a.set_position(x);
+  a.set_position(0.0, x);
   a.multiply(to_device("v", v), product);
   const auto found = to_host(ConstVectors(product)), wanted = to_host(ConstVectors(expected));
   double error = 0.0, size = 0.0;
@@ -281,7 +281,7 @@ TEST(RepelledFibers, AreMultipliedByTheChangeOfAllTheirForces) {
   // Without the repulsion's share it would be another product.
   SimulatedFibers others({left, right}, 0.0, compression);
   Linearization& b = *others.dynamics.linearization();
-  b.set_position(x);
+  b.set_position(0.0, x);
   b.multiply(to_device("v", v), product);
   const auto without = to_host(ConstVectors(product));
   error = 0.0;

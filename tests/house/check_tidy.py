@@ -17,7 +17,8 @@ from compile_commands import read_commands
 from source_tree import SKIPPED
 
 LAYERS = ("core", "scene", "fibers", "io")
-NOT_FOR_CLANG = ("-Wno-maybe-uninitialized", "-Wno-restrict", "-fpch-preprocess")
+NOT_FOR_CLANG = ("-Wno-maybe-uninitialized", "-Wno-restrict", "-Wno-stringop-overflow", "-Wno-array-bounds",
+                 "-fpch-preprocess")
 
 
 def main(root, build, program, jobs, all_sources):

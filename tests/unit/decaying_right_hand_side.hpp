@@ -20,7 +20,7 @@ class DecayingRightHandSide final : public RightHandSide, public Linearization {
   std::int64_t evaluations() const override { return equation_.evaluations() + products_; }
   Linearization* linearization() override { return this; }
 
-  void set_position(const ConstVectors&) override {}
+  void set_position(double, const ConstVectors&) override {}
   void multiply(const ConstVectors& v, const Vectors& result) override {
     ++products_;
     scale(v, result, [&](const double rate) { return -rate; });

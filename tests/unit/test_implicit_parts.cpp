@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/spring_forces.hpp>
 #include <skein/solvers/block_band.hpp>
 #include <skein/solvers/gmres.hpp>
 #include <skein/solvers/method_selection.hpp>

@@ -31,7 +31,7 @@ std::vector<Vec3> make_helix(const int n, const double radius, const double pitc
   return point;
 }
 
-TEST(Sections, Centreline IsTheMeanOfEachSectionsNodes) {
+TEST(Sections, HaveCentroidsThatAreTheMeansOfTheirNodes) {
   const auto fibers = make_test_fibers({5, 2, 33});
   reference::Random random(4);
   const auto position = reference::make_random_vectors(count_nodes(fibers), 2.0, random);

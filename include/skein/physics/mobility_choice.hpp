@@ -21,6 +21,9 @@ struct MobilityChoice {
 /// The same on every machine, so that a run can be repeated.
 MobilityChoice choose_mobility(const SceneConfig& scene);
 
+/// One line for direct sums with pairs of this precision; where it is automatic, that is double.
+std::string describe_direct_sum(Precision precision);
+
 /// One line: method, order, leaves, expected error, and why.
 std::string describe_choice(const MobilityChoice& choice, const SceneConfig& scene);
 
