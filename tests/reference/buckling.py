@@ -1,4 +1,4 @@
-"""Growth rates of bends of a fiber that planar extension compresses, and the critical rates. Takes a minute.
+"""Growth rates of bends of a fiber that planar extension compresses, and the critical rates. Takes half a minute.
 
 The fiber lies along x in u = e (-x, y, 0). Small motions v about the fiber under load:
 

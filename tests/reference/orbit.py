@@ -1,9 +1,9 @@
-"""Half a turn of the paper's shortest fiber, L = 0.139, in shear. Takes three minutes for each step size.
+"""Half a turn of the paper's shortest fiber, L = 0.139, in shear. Takes minutes.
 
 dx/dt = (rate y, 0, 0) + M(x) F(x): springs and regularized Stokeslets of 80 sections of 18 nodes, straight along x at
 t = 0. The run goes by RKL2, the stabilized Runge-Kutta-Legendre method of second order by Meyer, Balsara and Aslam
-(J. Comput. Phys. 257, 594, 2014), with fixed steps. The second step size, with `python3 orbit.py 0.025`, says how far
-the first one is off. A straight fiber stays as it is under reflection of z and under half a turn about z, so that
+(J. Comput. Phys. 257, 594, 2014), with fixed steps of 0.05. Another step size, as in `python3 orbit.py 0.1`, says how
+far this one is off. A straight fiber stays as it is under reflection of z and under half a turn about z, so that
 velocities are computed at a quarter of the nodes.
 
 Numbers for tests/accuracy/test_orbit.cpp: the angle of the line through the first and last section's centres, clockwise

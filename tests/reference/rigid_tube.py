@@ -1,4 +1,4 @@
-"""Resistance of the rigid tube and its turning in shear. Takes a minute and 1 GB.
+"""Resistance of the rigid tube and its turning in shear. Takes half a minute and 1 GB.
 
 The nodes of a straight fiber of 80 sections move as one body: the forces f on the fluid solve M f = U, M the matrix of
 regularized Stokeslets. Sums of f are the resistance to translations and rotations about the middle. A free tube in the
