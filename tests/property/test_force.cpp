@@ -21,7 +21,7 @@ class ForceTest : public ::testing::TestWithParam<test::ForceRow> {
  protected:
   ForceTest() : physics_(make_physics(make_scene(GetParam()))), random_(17) {
     for (const Fiber& fiber : physics_.fibers) {
-      Vec3 point = random_.in_cube(0.03), direction = random_.direction();
+      Vec3 point = random_.in_cube(0.002), direction = random_.direction();
       for (int s = 0; s < fiber.config.sections; ++s) {
         const Vec3 across = cross(direction, Vec3{0.36, -0.48, 0.8}), other = cross(direction, across);
         for (int a = 0; a < fiber.config.nodes_per_section; ++a) {

@@ -77,7 +77,7 @@ Launches count_step(const int n_fibers) {
 }
 
 TEST(LaunchCounts, OfAStepItsRecordAndItsFrameDoNotGrowWithTheNumberOfFibers) {
-  const Launches few = count_step(150), many = count_step(1000);
+  const Launches few = count_step(400), many = count_step(1000);
   EXPECT_GT(few.kernels, 5) << "the tool is not asked";
   EXPECT_GT(few.reductions, 0);
   EXPECT_EQ(few, many) << many.kernels << " kernels, " << many.reductions << " reductions, " << many.copies
