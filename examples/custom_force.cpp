@@ -2,6 +2,7 @@
 // whose velocity is (r y, 0, 0) the fiber then stays where it is.
 
 #include <skein/arrays/runtime.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 
 #include <cmath>

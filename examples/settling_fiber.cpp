@@ -2,6 +2,7 @@
 // set by hand at first, then bends; its ends fall behind its middle.
 
 #include <skein/arrays/runtime.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 
 #include "settling_weight.hpp"
