@@ -23,7 +23,7 @@ int main() {
   scene.fibers = {fiber};
 
   skein::Physics physics = skein::make_physics(scene);
-  physics.forces.push_back(std::make_unique<SettlingWeight>(skein::Vec3{0.0, 0.0, -0.02}));
+  physics.forces.push_back(std::make_unique<SettlingWeight>(skein::Vec3{0.0, 0.0, -0.0002}));
   skein::FiberDynamics dynamics(physics);
   const auto integrator = skein::make_integrator(scene, physics, dynamics);
 
