@@ -45,7 +45,7 @@ struct SectionBoxes {
 /// A loop over the places of all blocks, some of which are behind their fiber's last section.
 template <class Space>
 Kokkos::RangePolicy<Space> section_policy(const Space& space, const SectionBoxes<Space>& boxes) {
-  return {space, 0, boxes.fiber_of_block.extent_int(0) * sections_per_block};
+  return Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0) * sections_per_block);
 }
 
 /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
