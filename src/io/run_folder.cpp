@@ -63,7 +63,7 @@ void remove_files(const fs::path& folder, bool (*is_ours)(const std::string&)) {
 }  // namespace
 
 RunFolder RunFolder::create(const fs::path& path, const std::string& scene, const bool overwrite) {
-  const RunFolder folder(path);
+  RunFolder folder(path);
   const std::string name = path.string();
   try {
     if (fs::exists(path) && (!fs::is_directory(path) || !fs::is_empty(path))) {
@@ -93,7 +93,7 @@ RunFolder RunFolder::create(const fs::path& path, const std::string& scene, cons
 }
 
 RunFolder RunFolder::open_begun(const fs::path& path) {
-  const RunFolder folder(path);
+  RunFolder folder(path);
   std::error_code ignored;
   if (!fs::is_directory(path, ignored))
     throw Error(ExitCode::missing_input, fmt::format("there is no run folder '{}'.", path.string()));
@@ -102,7 +102,7 @@ RunFolder RunFolder::open_begun(const fs::path& path) {
 }
 
 RunFolder RunFolder::open(const fs::path& path) {
-  const RunFolder folder = open_begun(path);
+  RunFolder folder = open_begun(path);
   check_present(path, folder.index());
   return folder;
 }
