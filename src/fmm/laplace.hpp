@@ -39,7 +39,7 @@ struct HarmonicField {
   static constexpr int n_planes = 4;
   static constexpr int n_columns = 4;
   static constexpr bool shifts = true;  ///< psi is measured from the box's centre
-  KOKKOS_INLINE_FUNCTION HarmonicField at(double /*half_width*/) const { return *this; }
+  SKEIN_INLINE_FUNCTION HarmonicField at(double /*half_width*/) const { return *this; }
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
@@ -78,7 +78,7 @@ struct StokesletField {
   static constexpr int n_columns = 1;
   static constexpr bool shifts = false;
   bool stokes_part_only = false;
-  KOKKOS_INLINE_FUNCTION StokesletField at(double /*half_width*/) const { return *this; }
+  SKEIN_INLINE_FUNCTION StokesletField at(double /*half_width*/) const { return *this; }
 
   template <class Lanes, class Real>
   SKEIN_FORMULA void add_source(const Lanes x, const Lanes y, const Lanes z, const FarSource<Real>& source,
@@ -125,7 +125,7 @@ struct RegularizedField {
   static constexpr int n_columns = 1;
   static constexpr bool shifts = false;
   double blob_squared = 0.0;  ///< length^2; in units of a box after at()
-  KOKKOS_INLINE_FUNCTION RegularizedField at(const double half_width) const {
+  SKEIN_INLINE_FUNCTION RegularizedField at(const double half_width) const {
     return {blob_squared / (half_width * half_width)};
   }
 

@@ -21,6 +21,17 @@ def layer_of(file):
     return "kernels" if parts[0] == "kernels" else parts[2] if parts[0] == "include" else parts[1]
 
 
+def include_options(options):
+    """The folders that these options name, `-I/path` as one word and `-isystem /path` as two."""
+    found, words = [], iter(options)
+    for word in words:
+        if word in ("-I", "-isystem"):
+            found += [word, next(words)]
+        elif word.startswith("-I"):
+            found.append(word)
+    return found
+
+
 def main(root, build, jobs):
     graph = IncludeGraph(root)
     of_layer = {}
@@ -46,7 +57,7 @@ def main(root, build, jobs):
             if graph.way_to(header, "Kokkos"):
                 compiler, options = of_layer["physics"]
                 first = ["-include", str(on_kokkos)]
-                options = options + [word for word in of_layer[layer_of(header)][1] if word.startswith(("-I", "-isystem"))]
+                options = options + include_options(of_layer[layer_of(header)][1])
             # Included by its path: `#pragma once` in a main file is a warning.
             result = subprocess.run([compiler, *options, *first, "-fsyntax-only", "-x", "c++", "-"], text=True,
                                     input=f'#include "{root / header}"\n', capture_output=True)
