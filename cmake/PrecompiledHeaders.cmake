@@ -24,8 +24,6 @@ function(skein_add_precompiled name)
   target_link_libraries(${name} PRIVATE skein_compiler_options ${arg_LIBRARIES})
   list(TRANSFORM arg_HEADERS REPLACE "(.+)" "<\\1>")
   target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
-  # Without it g++ leaves the headers' name out of what ccache compares.
-  target_compile_options(${name} PUBLIC $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
 set(text_headers algorithm cmath filesystem fmt/format.h functional memory span string string_view vector)
