@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view suffix = ".checkpoint";
+constexpr std::string_view checkpoint_suffix = ".checkpoint";
 
 // Of "000012.checkpoint"; nothing for other names.
 std::optional<std::int64_t> number_of(const std::string& name) {
-  const std::size_t n_digits = name.size() < suffix.size() ? 0 : name.size() - suffix.size();
-  if (n_digits < 1 || n_digits > 18 || !name.ends_with(suffix)) return std::nullopt;
+  const std::size_t n_digits = name.size() < checkpoint_suffix.size() ? 0 : name.size() - checkpoint_suffix.size();
+  if (n_digits < 1 || n_digits > 18 || !name.ends_with(checkpoint_suffix)) return std::nullopt;
   std::int64_t number = 0;
   for (const char c : name.substr(0, n_digits)) {
     if (std::isdigit(static_cast<unsigned char>(c)) == 0) return std::nullopt;
@@ -70,7 +70,7 @@ std::vector<std::int64_t> CheckpointFolder::list_numbers(const RunFolder& folder
 }
 
 fs::path CheckpointFolder::path_of(const RunFolder& folder, const std::int64_t number) {
-  return folder.checkpoints() / fmt::format("{:06}{}", number, suffix);
+  return folder.checkpoints() / fmt::format("{:06}{}", number, checkpoint_suffix);
 }
 
 fs::path CheckpointFolder::path_of(const std::int64_t number) const { return path_of(folder_, number); }

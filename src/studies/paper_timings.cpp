@@ -12,7 +12,7 @@
 namespace skein {
 namespace {
 
-constexpr double viscosity = 1.0;  // of the paper
+constexpr double paper_viscosity = 1.0;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ std::vector<SumTiming> time_paper_sums() {
   std::vector<FiberConfig> fibers;
   for (const int sections : {40, 80, 160, 301, 536, 900, 1313})
     fibers.push_back(make_paper_scene(sections, 1.0).fibers.front());
-  return time_sums(fibers, viscosity, /*tolerance=*/1e-4);
+  return time_sums(fibers, paper_viscosity, /*tolerance=*/1e-4);
 }
 
 double find_crossover(const std::vector<SumTiming>& timings) {

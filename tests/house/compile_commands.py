@@ -5,6 +5,7 @@ on which clang's tools stop. Without the checks of the house it serves editors.
 """
 
 import json
+import re
 import shlex
 import sys
 from pathlib import Path
@@ -21,6 +22,7 @@ def read_commands(build):
         while not Path(words[0]).name.split("-")[0].startswith(("c++", "g++", "clang", "nvcc", "hipcc")):
             words.pop(0)  # env, ccache and their like
         source, options, at = entry["file"], [], 1
+        sources = read_united(source)
         while at < len(words):
             if words[at] in WITH_ARGUMENT:
                 at += 2
@@ -28,8 +30,15 @@ def read_commands(build):
             if words[at] not in LEFT_OUT and words[at] != source:
                 options.append(words[at])
             at += 1
-        commands[source] = (words[0], options)
+        commands.update((source, (words[0], options)) for source in sources)
     return commands
+
+
+def read_united(source):
+    """The sources that one of CMake's united ones includes; any other is by itself."""
+    if Path(source).parent.name != "Unity":
+        return [source]
+    return re.findall(r'^#include "(.*)"$', Path(source).read_text(encoding="utf-8"), re.MULTILINE)
 
 
 def main(build):
