@@ -100,7 +100,7 @@ SurfaceOperators::Factors SurfaceOperators::factor_parity(const int parity) cons
     column += part.cols();
   }
   const MatrixXd block = basis.transpose() * (kernel_ * basis);
-  const SingularValues svd = find_singular_values(block, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularValues svd = find_singular_values(block);
   return {basis * svd.v, basis * svd.u, svd.s};
 }
 

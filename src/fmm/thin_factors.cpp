@@ -1,5 +1,7 @@
 #include "thin_factors.hpp"
 
+#include <skein/core/error.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -40,13 +42,14 @@ MatrixXd find_range(MatrixXd matrix, const double allowed) {
 
 }  // namespace
 
-SingularValues find_singular_values(const MatrixXd& matrix, const unsigned options) {
-  const Eigen::BDCSVD<MatrixXd> svd(matrix, options);
-  SingularValues values;
-  values.s = svd.singularValues();
-  if ((options & Eigen::ComputeThinU) != 0) values.u = svd.matrixU();
-  if ((options & Eigen::ComputeThinV) != 0) values.v = svd.matrixV();
-  return values;
+SingularValues find_singular_values(const MatrixXd& matrix) {
+  SKEIN_REQUIRE(matrix.rows() == matrix.cols(), "a square matrix");
+  // With A P = Q R, the transpose of R is nearly diagonal, and Jacobi's rotations need few sweeps.
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix);
+  const MatrixXd triangle = qr.matrixR().triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(triangle.transpose(),
+                                                                  Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {qr.householderQ() * svd.matrixV(), qr.colsPermutation() * svd.matrixU(), svd.singularValues()};
 }
 
 MatrixXd leading_range(const MatrixXd& matrix, const double tolerance) {
@@ -54,7 +57,7 @@ MatrixXd leading_range(const MatrixXd& matrix, const double tolerance) {
   const MatrixXd range = find_range(matrix, 0.1 * allowed);
   const Eigen::HouseholderQR<MatrixXd> qr(matrix.transpose() * range);
   const MatrixXd triangle = qr.matrixQR().topRows(range.cols()).triangularView<Eigen::Upper>();
-  const SingularValues svd = find_singular_values(triangle.transpose(), Eigen::ComputeThinU);
+  const SingularValues svd = find_singular_values(triangle.transpose());
   Eigen::Index rank = range.cols();
   for (double lost = 0.0; rank > 1; --rank) {
     lost += std::pow(svd.s(rank - 1), 2);

@@ -4,14 +4,15 @@
 
 namespace skein {
 
-/// A = U S V^T, thin. Compiled once: Eigen's divide and conquer costs half a minute wherever it is instantiated.
+/// A = U S V^T, S falling.
 struct SingularValues {
   Eigen::MatrixXd u, v;
   Eigen::VectorXd s;
 };
 
-/// @param options  Eigen::ComputeThinU and ComputeThinV: what is wanted besides the values
-SingularValues find_singular_values(const Eigen::MatrixXd& matrix, unsigned options);
+/// Of a square matrix [n, n], by Jacobi's rotations, which keep the relative accuracy of small values; Eigen's divide and
+/// conquer takes as long to compile as all the rest of this layer.
+SingularValues find_singular_values(const Eigen::MatrixXd& matrix);
 
 /// The fewest orthonormal columns Q with |A - Q Q^T A| <= tolerance |A| (Frobenius).
 Eigen::MatrixXd leading_range(const Eigen::MatrixXd& matrix, double tolerance);
