@@ -10,8 +10,8 @@ struct SingularValues {
   Eigen::VectorXd s;
 };
 
-/// Of a square matrix [n, n], by Jacobi's rotations, which keep the relative accuracy of small values; Eigen's divide and
-/// conquer takes as long to compile as all the rest of this layer.
+/// Of a square matrix [n, n], by Jacobi's rotations, which keep the relative accuracy of small values; Eigen's divide
+/// and conquer takes as long to compile as all the rest of this layer.
 SingularValues find_singular_values(const Eigen::MatrixXd& matrix);
 
 /// The fewest orthonormal columns Q with |A - Q Q^T A| <= tolerance |A| (Frobenius).
