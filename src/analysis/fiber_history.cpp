@@ -10,9 +10,9 @@ namespace {
 
 // Extrema below this share of the run's largest curvature are those of a nearly straight fiber.
 constexpr double least_share_of_peak = 0.3;
-// A hook is measured from the moment its end points backwards, for this long: enough for a line fit, and over before
-// the hooks of short fibers meet.
-constexpr double snaking_window = 2.0;
+// A hook is measured from the moment its end points backwards, for so many time scales: enough for a line fit, and over
+// before the hooks of short fibers meet.
+constexpr double snaking_window = 5.0;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -41,7 +41,8 @@ LineFit fit_first_growth(const std::vector<double>& time, const std::vector<doub
 
 }  // namespace
 
-FiberHistory::FiberHistory(const Fiber& fiber) : fiber_(fiber), reach_(choose_curvature_reach(fiber)) {}
+FiberHistory::FiberHistory(const Fiber& fiber, const double time_scale)
+    : fiber_(fiber), time_scale_(time_scale), reach_(choose_curvature_reach(fiber)) {}
 
 void FiberHistory::add(const double time, const std::span<const Vec3> centreline) {
   SKEIN_REQUIRE(static_cast<int>(centreline.size()) == fiber_.config.sections, "one point for each section");
@@ -86,8 +87,8 @@ std::optional<Snaking> FiberHistory::measure_snaking() const {
     };
     const auto first = static_cast<std::size_t>(std::find_if(hooks.begin(), hooks.end(), is_folded) - hooks.begin());
     std::vector<double> time, place, radius;
-    for (std::size_t i = first; i < hooks.size() && is_folded(hooks[i]) && time_[i] <= time_[first] + snaking_window;
-         ++i) {
+    for (std::size_t i = first;
+         i < hooks.size() && is_folded(hooks[i]) && time_[i] <= time_[first] + snaking_window * time_scale_; ++i) {
       time.push_back(time_[i]);
       place.push_back(hooks[i]->arclength);
       radius.push_back(hooks[i]->circle.radius);

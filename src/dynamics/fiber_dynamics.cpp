@@ -43,7 +43,9 @@ class PartsTimer {
 }  // namespace
 
 FiberDynamics::FiberDynamics(Physics& physics)
-    : physics_(physics), force_("skein::FiberDynamics::force", physics.blob.extent(0)) {}
+    : physics_(physics),
+      course_(physics.make_time_course()),
+      force_("skein::FiberDynamics::force", physics.blob.extent(0)) {}
 
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
   PartsTimer timer(evaluations_++, seconds_);

@@ -2,6 +2,7 @@
 #include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/run_check.hpp>
 #include <skein/io/trajectory_end.hpp>
+#include <skein/scene/frame_times.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "hdf5_reader.hpp"
@@ -9,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
@@ -122,7 +122,7 @@ void RunChecker::check_records(const SegmentMoments& moments) {
     const double before = record_times_.back(), time = moments.record_times[i], dt = moments.record_dt.at(i);
     if (moments.record_steps[i] != check_.records)
       report("'{}': step {} is recorded where step {} should be", name, moments.record_steps[i], check_.records);
-    const bool is_sum = time == before + dt || (time == scene_.time.end && dt == time - before);
+    const bool is_sum = time == before + dt || dt == time - before;  // the latter where an end cut it
     if (!is_sum || !(dt > 0.0))
       report("'{}': step {} ends at t = {}, which is not {} + its dt {}", name, check_.records, time, before, dt);
     record_times_.push_back(time);
@@ -135,7 +135,7 @@ void RunChecker::check_frames(const SegmentMoments& moments) {
 }
 
 void RunChecker::check_frame(const std::string& name, const double time, const std::int64_t step) {
-  const double due = std::min(static_cast<double>(check_.frames) * scene_.output.frame_interval, scene_.time.end);
+  const double due = find_frame_time(scene_, check_.frames);
   // A run that failed adds the last state it could reach.
   const bool is_last_state = check_.status == "failed" && time == record_times_.back() && time < due;
   if (time != due && !is_last_state)

@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 
 #include "force_table.hpp"
+#include "motion_times.hpp"
 
 #include <fmt/format.h>
 
@@ -22,8 +23,9 @@ std::vector<double> make_weights(const std::vector<Fiber>& fibers, const double 
 /// that the fluid as a whole is dragged along and velocities fall off like 1 / distance only.
 class Gravity final : public Force {
  public:
-  Gravity(const std::vector<Fiber>& fibers, const double weight, const Vec3 direction)
+  Gravity(const std::vector<Fiber>& fibers, const double weight, const Vec3 direction, const double viscosity)
       : weight_(weight),
+        time_scale_(find_falling_time(weight, fibers, viscosity)),
         direction_(direction / norm(direction)),
         node_weight_(to_device("skein::Gravity::node_weight", make_weights(fibers, weight))),
         node_energy_("skein::Gravity::node_energy", node_weight_.extent(0)) {
@@ -59,6 +61,8 @@ class Gravity final : public Force {
       energy[f] += std::accumulate(node, node + n_nodes_[f], 0.0);
   }
 
+  double time_scale() const override { return time_scale_; }
+
   std::string describe() const override {
     return fmt::format("gravity, {:g} a length towards ({:g}, {:g}, {:g})", weight_, direction_.x, direction_.y,
                        direction_.z);
@@ -66,6 +70,7 @@ class Gravity final : public Force {
 
  private:
   double weight_;
+  double time_scale_;
   Vec3 direction_;
   Scalars node_weight_, node_energy_;  ///< [n_nodes]
   std::vector<int> n_nodes_;           ///< [n_fibers]
@@ -75,7 +80,8 @@ class Gravity final : public Force {
 
 void append_gravity(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
   const GravityConfig& gravity = scene.gravity;
-  if (gravity.weight > 0.0) forces.push_back(std::make_unique<Gravity>(fibers, gravity.weight, gravity.direction));
+  if (gravity.weight > 0.0)
+    forces.push_back(std::make_unique<Gravity>(fibers, gravity.weight, gravity.direction, scene.fluid.viscosity));
 }
 
 }  // namespace skein

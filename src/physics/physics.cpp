@@ -4,8 +4,10 @@
 #include <skein/physics/physics.hpp>
 
 #include "force_table.hpp"
+#include "motion_times.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace skein {
@@ -51,7 +53,14 @@ bool Physics::has_force_between_fibers() const {
 double Physics::time_scale() const {
   double scale = flow->time_scale();
   for (const auto& part : forces) scale = std::min(scale, part->time_scale());
-  return scale;
+  return std::isfinite(scale) ? scale : find_relaxation_time(fibers, viscosity);
+}
+
+TimeCourse Physics::make_time_course() const {
+  TimeCourse course;
+  flow->add_course(course);
+  for (const auto& part : forces) part->add_course(course);
+  return course;
 }
 
 std::string Physics::describe_forces() const {

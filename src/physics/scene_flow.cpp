@@ -15,6 +15,8 @@
 namespace skein {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// 0 before `start`, 1 after `start + ramp`; a cubic without kinks in between.
 double rise(const double time, const double start, const double ramp) {
   if (time < start) return 0.0;
@@ -93,15 +95,22 @@ double SceneFlow::typical_rate() const {
 }
 
 double SceneFlow::time_scale() const {
-  double motion = 0.0, change = 0.0;
+  double motion = 0.0;
+  for (const FlowConfig& flow : flows_) motion += row_of(flow.kind).motion * std::abs(flow.rate);
+  return motion > 0.0 ? 1.0 / motion : infinity;
+}
+
+// The sums are those of rise(): a break is the first moment of what comes after.
+void SceneFlow::add_course(TimeCourse& course) const {
   for (const FlowConfig& flow : flows_) {
     if (flow.rate == 0.0) continue;
-    motion += row_of(flow.kind).motion * std::abs(flow.rate);
-    change = std::max(change, std::abs(flow.angular_frequency));
-    if (flow.ramp > 0.0) change = std::max(change, 1.0 / flow.ramp);
+    const double end = flow.stop > 0.0 ? flow.stop + flow.ramp : infinity;
+    course.add_piece(flow.start, end);
+    course.add_ramp(flow.start, flow.start + flow.ramp);
+    if (flow.stop > 0.0) course.add_ramp(flow.stop, end);
+    if (flow.angular_frequency != 0.0)
+      course.add_oscillation(flow.start, end, 2.0 * std::numbers::pi / std::abs(flow.angular_frequency));
   }
-  const double fastest = std::max(motion, change);
-  return fastest > 0.0 ? 1.0 / fastest : std::numeric_limits<double>::infinity();
 }
 
 std::string SceneFlow::describe() const {

@@ -1,11 +1,13 @@
 #include "force_table.hpp"
 #include "loaded_sections.hpp"
+#include "motion_times.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace skein {
 namespace {
@@ -35,13 +37,12 @@ class Tethers final : public Force {
             [](const TetherConfig& config, const Fiber&) {
               return Tether{config.stiffness, config.point, config.velocity, config.swing, config.angular_frequency};
             })),
+        time_scale_(find_tether_time(configs, fibers)),
         of_section_("skein::Tethers::of_section", static_cast<std::size_t>(loads_.n_sections())) {
     for (const TetherConfig& config : configs) {
       const Tether tether{config.stiffness, config.point, config.velocity, config.swing, config.angular_frequency};
-      if (tether.is_steady()) continue;
-      is_steady_ = false;
-      const double length = fibers[config.fiber].length();
-      time_scale_ = std::min({time_scale_, length / norm(config.velocity), 1.0 / std::abs(config.angular_frequency)});
+      is_steady_ = is_steady_ && tether.is_steady();
+      if (tether.swing != Vec3{}) fastest_swing_ = std::max(fastest_swing_, std::abs(tether.angular_frequency));
     }
   }
 
@@ -113,6 +114,10 @@ class Tethers final : public Force {
   }
 
   double time_scale() const override { return time_scale_; }
+  void add_course(TimeCourse& course) const override {
+    if (fastest_swing_ > 0.0)
+      course.add_oscillation(0.0, std::numeric_limits<double>::infinity(), 2.0 * std::numbers::pi / fastest_swing_);
+  }
 
   std::string describe() const override {
     return fmt::format("{} tether{} to {} points", loads_.n_loads(), loads_.n_loads() == 1 ? "" : "s",
@@ -121,9 +126,10 @@ class Tethers final : public Force {
 
  private:
   LoadedSections<Tether> loads_;
+  double time_scale_;
   Scalars of_section_;  ///< [n_sections]
   bool is_steady_ = true;
-  double time_scale_ = std::numeric_limits<double>::infinity();
+  double fastest_swing_ = 0.0;  ///< radians / time
 };
 
 }  // namespace

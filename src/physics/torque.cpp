@@ -1,10 +1,12 @@
 #include "force_table.hpp"
 #include "loaded_sections.hpp"
+#include "motion_times.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 namespace skein {
 namespace {
@@ -68,16 +70,17 @@ KOKKOS_INLINE_FUNCTION Vec3 sum_of(const LoadedSections<Torque>& loads, const Lo
 /// turn a section as a rigid body would be turned.
 class Torques final : public Force {
  public:
-  Torques(const std::vector<TorqueConfig>& configs, const std::vector<Fiber>& fibers)
+  Torques(const std::vector<TorqueConfig>& configs, const std::vector<Fiber>& fibers, const double viscosity)
       : loads_(make_loaded_sections<Torque>("torque", configs, fibers,
                                             [](const TorqueConfig& config, const Fiber&) {
                                               return Torque{config.torque, config.angular_velocity};
                                             })),
+        time_scale_(find_torque_time(configs, fibers, viscosity)),
         power_("skein::Torques::power", static_cast<std::size_t>(loads_.n_sections())) {
     for (const TorqueConfig& config : configs) {
       if (Torque{config.torque, config.angular_velocity}.is_steady()) continue;
       is_steady_ = false;
-      time_scale_ = std::min(time_scale_, 1.0 / norm(config.angular_velocity));
+      fastest_turn_ = std::max(fastest_turn_, norm(config.angular_velocity));
     }
   }
 
@@ -137,6 +140,10 @@ class Torques final : public Force {
   }
 
   double time_scale() const override { return time_scale_; }
+  void add_course(TimeCourse& course) const override {
+    if (!is_steady_)
+      course.add_oscillation(0.0, std::numeric_limits<double>::infinity(), 2.0 * std::numbers::pi / fastest_turn_);
+  }
 
   std::string describe() const override {
     return fmt::format("{} {} torque{} on sections", loads_.n_loads(), is_steady_ ? "constant" : "turning",
@@ -145,15 +152,16 @@ class Torques final : public Force {
 
  private:
   LoadedSections<Torque> loads_;
+  double time_scale_;
   Scalars power_;  ///< [n_sections]
   bool is_steady_ = true;
-  double time_scale_ = std::numeric_limits<double>::infinity();
+  double fastest_turn_ = 0.0;  ///< radians / time
 };
 
 }  // namespace
 
 void append_torques(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
-  if (!scene.torques.empty()) forces.push_back(std::make_unique<Torques>(scene.torques, fibers));
+  if (!scene.torques.empty()) forces.push_back(std::make_unique<Torques>(scene.torques, fibers, scene.fluid.viscosity));
 }
 
 }  // namespace skein

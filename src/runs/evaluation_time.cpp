@@ -1,6 +1,7 @@
 #include "runs/evaluation_time.hpp"
 
 #include <skein/core/stopwatch.hpp>
+#include <skein/dynamics/spectral_radius_at.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
@@ -40,6 +41,12 @@ double time_calls(const std::function<void()>& call) {
   }
   std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
   return seconds[seconds.size() / 2];
+}
+
+double find_spectral_radius(const SceneConfig& scene, FiberDynamics& dynamics, const double time,
+                            const ConstVectors& position) {
+  const PowerIterationLimits& limits = scene.time.method == TimeMethod::euler ? exact_radius : rough_radius;
+  return find_spectral_radius_at(dynamics.physics(), dynamics, time, position, scene.seed, limits);
 }
 
 EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position) {

@@ -9,6 +9,11 @@
 
 namespace skein {
 
+/// The spectral radius at these positions, 1 / time, as exactly as what is said of a run needs it: Euler's stability is
+/// judged by it, else it only tells what a run takes. Not finite where velocities are not.
+double find_spectral_radius(const SceneConfig& scene, FiberDynamics& dynamics, double time,
+                            const ConstVectors& position);
+
 EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& position);
 
 /// The median wall time of five calls after a first one, seconds; one call of more than a second is enough.

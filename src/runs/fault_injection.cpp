@@ -45,6 +45,7 @@ class FaultyDynamics final : public RightHandSide {
   }
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  const TimeCourse& time_course() const override { return dynamics_.time_course(); }
   void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
   Linearization* linearization() override { return dynamics_.linearization(); }
 

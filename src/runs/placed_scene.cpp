@@ -3,13 +3,14 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/placement.hpp>
 #include <skein/physics/mobility_choice.hpp>
+#include <skein/physics/scene_times.hpp>
 
 namespace skein {
 
 SceneReading read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   SceneReading reading = read_scene(file, overrides, find_mobility_problems);
   try {
-    reading.config = place_fibers(reading.config);
+    reading.config = resolve_times(place_fibers(reading.config));
     check_overlap(make_fibers(reading.config.fibers), reading.config.seed);
   } catch (const Error& error) {
     if (error.code() != ExitCode::scene_error) throw;

@@ -96,7 +96,7 @@ RunAnalysis analyze_run(const RunFolder& folder, const bool with_forces) {
   analysis.fibers = physics.fibers;
   analysis.shares_energy = physics.has_force_between_fibers();
   analysis.status = read_run_summary(folder.path()).status;
-  for (const Fiber& fiber : analysis.fibers) analysis.histories.emplace_back(fiber);
+  for (const Fiber& fiber : analysis.fibers) analysis.histories.emplace_back(fiber, physics.time_scale());
   ForceProbe probe(physics);
   if (with_forces) analysis.forces.resize(analysis.fibers.size());
   const auto n_nodes = static_cast<std::size_t>(count_nodes(analysis.fibers));

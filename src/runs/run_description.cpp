@@ -8,6 +8,7 @@
 #include <skein/fibers/spring_network.hpp>
 #include <skein/physics/flow_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
+#include <skein/physics/scene_times.hpp>
 #include <skein/scene/words.hpp>
 #include <skein/solvers/rkc2_stages.hpp>
 
@@ -22,46 +23,28 @@ namespace skein {
 namespace {
 
 /// The largest step that a run is expected to take: for error control that never finds the fiber at rest, with the
-/// local error of a rigid turn, (rate dt)^2 rate / 30 of the length per unit time.
-double expect_largest_step(const SceneConfig& scene, const double time_scale) {
-  if (scene.time.step > 0.0) return scene.time.step;
-  const double rate = std::max(1.0 / time_scale, 1e-3);
-  return std::min(scene.time.max_step, std::sqrt(30.0 * scene.time.tolerance / rate) / rate);
+/// local error of a rigid turn, (dt / time scale)^2 / 30 of the length per time scale.
+double expect_largest_step(const TimeConfig& time, const double time_scale) {
+  if (time.step > 0.0) return time.step;
+  return std::min(time.max_step, std::sqrt(30.0 * time.tolerance * time_scale) * time_scale);
 }
 
-/// Evaluations a run will take. For RKC2 an upper estimate, which serves for the methods that are chosen where they
-/// take less.
+/// Evaluations a run will take, roughly. That of RKC2 serves for the methods that are chosen where they take less.
 double expect_evaluations(const SceneConfig& scene, const double time_scale, const double spectral_radius) {
-  const double end = scene.time.end, dt = expect_largest_step(scene, time_scale);
-  switch (scene.time.method) {
+  const TimeConfig time = resolve_time(scene.time, time_scale);
+  const double dt = expect_largest_step(time, time_scale);
+  switch (time.method) {
     case TimeMethod::euler:
-      return end / dt;
+      return time.end / dt;
     case TimeMethod::rk4:
     case TimeMethod::bs3:
-      return 4.0 * end * std::max(1.0 / dt, spectral_radius / 2.5);
+      return 4.0 * time.end * std::max(1.0 / dt, spectral_radius / 2.5);
     case TimeMethod::automatic:
     case TimeMethod::rkc2:
     case TimeMethod::trbdf2:
-      return end / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
+      return time.end / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
   }
   throw Error(ExitCode::internal, "expect_evaluations knows no such method");
-}
-
-/// Of a fiber's springs, force.
-double find_largest_stiffness(const FiberConfig& fiber) {
-  double factor = 0.0;
-  for (const ProfilePoint& point : fiber.stiffness_profile) factor = std::max(factor, point.factor);
-  return fiber.spring_stiffness * factor * std::max(fiber.stiffness_within_sections, fiber.stiffness_between_sections);
-}
-
-/// Of the spring-mobility operator, 1 / time: 1.1e4 for the paper's fiber, and in proportion to k / (viscosity R^2)
-/// for other fibers of its proportions.
-double guess_spectral_radius(const SceneConfig& scene) {
-  double radius = 0.0;
-  for (const FiberConfig& fiber : scene.fibers)
-    radius = std::max(radius, 1.1057e4 * (find_largest_stiffness(fiber) / 0.0112) / scene.fluid.viscosity *
-                                  std::pow(0.005 / fiber.radius, 2) * fiber.nodes_per_section / 18.0);
-  return radius;
 }
 
 }  // namespace
@@ -97,28 +80,29 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
 }
 
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const std::string& integrator, const EvaluationCost& cost) {
-  const FlowSummary flow = summarize_flow(scene.flows);
+                         const std::string& integrator, const EvaluationCost& cost, const double spectral_radius) {
   const double n_nodes = count_nodes(fibers);
   const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
   const double bytes = n_frames * n_nodes * 3.0 * bytes_per_number(scene.output.precision);
-  const double radius = guess_spectral_radius(scene);
-  const double evaluations = expect_evaluations(scene, flow.time_scale, radius);
+  const double evaluations = expect_evaluations(scene, find_time_scale(scene), spectral_radius);
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
   if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
-  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", flow.description,
+  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", summarize_flow(scene.flows).description,
                       describe_choice(choose_mobility(scene), scene), integrator, scene.time.end);
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);
   text +=
-      fmt::format("cost: {:.3g} ms an evaluation; at most about {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
+      fmt::format("cost: {:.3g} ms an evaluation; roughly {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
                   1e3 * cost.seconds, evaluations, format_duration(evaluations * cost.seconds), n_frames, 1e-6 * bytes);
-  if (scene.time.method == TimeMethod::euler && scene.time.step * radius > 2.0)
+  const double product = scene.time.step * spectral_radius;
+  if (scene.time.method == TimeMethod::euler && product > 2.0)
     text += fmt::format(
-        "\nwarning: the step times the spectral radius (about {:.3g}) is {:.3g}; forward Euler is unstable above 2",
-        radius, scene.time.step * radius);
+        "\nwarning: the step times the spectral radius at the start ({:.4g}) is {:.3g}; forward Euler is unstable "
+        "above "
+        "2: set time.step below {:.3g}, or use time.method = \"rkc2\"",
+        spectral_radius, product, 2.0 / spectral_radius);
   return text;
 }
 

@@ -16,8 +16,9 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
                                  const std::vector<Fiber>& fibers);
 
 /// A run's first lines: version, device, size, methods and why, what it will take.
+/// @param spectral_radius     at the start, 1 / time; not finite: not known
 /// @param forces, integrator  as they describe themselves; forces beside the springs, empty where there are none
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const std::string& integrator, const EvaluationCost& cost);
+                         const std::string& integrator, const EvaluationCost& cost, double spectral_radius);
 
 }  // namespace skein

@@ -1,13 +1,12 @@
 #include "runs/run_recorder.hpp"
 
 #include <skein/io/atomic_file.hpp>
+#include <skein/scene/frame_times.hpp>
 
 #include "runs/observables.hpp"
 #include "runs/run_description.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace skein {
 namespace {
@@ -64,13 +63,10 @@ void RunRecorder::record(const State& state, const StepReport& report, const Int
 }
 
 void RunRecorder::write_frames_in_step(const State& state, const Integrator& integrator) {
-  const double interval = scene_.output.frame_interval;
-  const double end = scene_.time.end;
   for (;;) {
     // The last frame is the end of the run, whether or not it is a multiple of the interval.
-    const auto next = static_cast<double>(next_frame_);
-    const double due = std::min(next * interval, end);
-    const bool after_end = (next - 1.0) * interval >= end;
+    const double due = find_frame_time(scene_, next_frame_);
+    const bool after_end = find_frame_time(scene_, next_frame_ - 1) >= scene_.time.end;
     if (due > state.time || after_end) return;
     if (due == state.time) {
       write_frame(state.step, state.time, state.position);

@@ -22,8 +22,9 @@ std::string describe_dry_run(const SceneConfig& scene) {
   FiberDynamics dynamics(physics);
   const auto integrator = make_integrator(scene, physics, dynamics);
   const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
-  return describe_run(scene, physics.fibers, physics.describe_forces(), integrator->describe(),
-                      time_evaluation(dynamics, position));
+  const EvaluationCost cost = time_evaluation(dynamics, position);
+  return describe_run(scene, physics.fibers, physics.describe_forces(), integrator->describe(), cost,
+                      find_spectral_radius(scene, dynamics, 0.0, position));
 }
 
 }  // namespace skein

@@ -5,6 +5,7 @@
 #include <skein/core/milestone.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/io/trajectory_end.hpp>
+#include <skein/physics/scene_times.hpp>
 
 #include "runs/evaluation_time.hpp"
 #include "runs/run_description.hpp"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace skein {
 namespace {
@@ -35,7 +37,7 @@ std::unique_ptr<RightHandSide> decorate(const RunHooks& hooks, RightHandSide& dy
 
 Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint,
                        RunControl& control, RunListener& listener, const RunHooks& hooks)
-    : scene_(scene),
+    : scene_(resolve_times(scene)),
       folder_(folder),
       control_(control),
       messages_(folder, listener),
@@ -59,16 +61,18 @@ void Simulation::introduce() {
   MemorySnapshot before;
   before.take(dynamics_);
   EvaluationCost cost;
+  double radius = std::numeric_limits<double>::quiet_NaN();
   try {
     cost = time_evaluation(dynamics_, state_.position);
     ledger_.parts().direct_sums_each = cost.direct_seconds;
+    radius = find_spectral_radius(scene_, dynamics_, state_.time, state_.position);
   } catch (const Error& error) {  // the first step meets it, too, and there is a checkpoint then
     if (error.code() != ExitCode::numerical) throw;
   }
   before.bring_back(dynamics_);
   physics_.mobility->take_messages();
   ledger_.exclude_evaluations();
-  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost));
+  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost, radius));
 }
 
 ExitCode Simulation::run() {

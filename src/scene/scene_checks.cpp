@@ -107,19 +107,20 @@ void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<P
   if (time.method == TimeMethod::euler && time.step == 0.0) {
     reader.add(problems, "time.step", "time.step must be given and above 0: euler has no error control");
   }
-  if (time.step > time.max_step) {
+  if (time.max_step > 0.0 && time.step > time.max_step) {
     reader.add(
         problems, "time.step",
         fmt::format("time.step {} is above time.max_step {}", format_number(time.step), format_number(time.max_step)));
   }
   const double shortest = time.step > 0.0 ? time.step : time.max_step;
-  if (time.end / shortest > n_steps_allowed) {
+  if (shortest > 0.0 && time.end / shortest > n_steps_allowed) {
     reader.add(problems, "time.end",
                fmt::format("time.end {} would take {:.2g} steps", format_number(time.end), time.end / shortest));
   }
 }
 
 void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  if (scene.output.frame_interval == 0.0) return;  // the scene's own time sets it
   const double n_frames = scene.time.end / scene.output.frame_interval;
   if (n_frames <= n_frames_allowed) return;
   reader.add(problems, "output.frame_interval",

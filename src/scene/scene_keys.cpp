@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace skein {
 namespace {
 
@@ -96,16 +98,25 @@ void visit_time(KeyVisitor& visitor, TimeConfig& time) {
   visitor.number({"end", "time", zero_or_more(), "time at which the run ends; it starts at 0"}, time.end);
   visitor.number({"step", "time", zero_or_more(), "fixed step; 0 leaves it to the error control; euler needs one"},
                  time.step);
-  visitor.number({"tolerance", "", between(1e-12, 1.0),
-                  "error allowed per unit of time, as a fraction of the longest fiber's length"},
-                 time.tolerance);
-  visitor.number({"max_step", "time", above_zero(), "largest step"}, time.max_step);
+  visitor.number(
+      {"tolerance", "1 / time", zero_or_more(),
+       "error allowed per unit of time, as a fraction of the longest fiber's length; 0: 4e-5 per time scale, "
+       "1e-4 in shear of rate 2.5. The time scale is 1 / rate of the flow; where a weight, a torque or a "
+       "moving tether carries a fiber over its length sooner, that time; in a fluid at rest that in which a "
+       "bent fiber relaxes"},
+      time.tolerance);
+  visitor.number({"max_step",
+                  "time",
+                  {0.0, std::numeric_limits<double>::infinity(), "0 or more, or inf"},
+                  "largest step; 0: a quarter of the time scale; inf: as the tolerance allows"},
+                 time.max_step);
   visitor.end_table();
 }
 
 void visit_output(KeyVisitor& visitor, OutputConfig& output) {
   visitor.begin_table({"output", false, "What the run folder holds."});
-  visitor.number({"frame_interval", "time", above_zero(), "time from frame to frame; the start and the end have one"},
+  visitor.number({"frame_interval", "time", zero_or_more(),
+                  "time from frame to frame; the start and the end have one; 0: an eighth of the time scale"},
                  output.frame_interval);
   visitor.choice({"precision", "", {}, "numbers of the positions in frames; checkpoints are always double"},
                  words_of_stored_precision(), output.precision);

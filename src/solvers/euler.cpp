@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace skein {
 namespace {
 
@@ -25,7 +27,8 @@ Euler::Euler(RightHandSide& rhs, const double dt, const double length_scale, con
 StepReport Euler::take_step(State& state, const double end) {
   // A last step shorter than a thousandth would be rounding: it is joined to the one before.
   const double left = end - state.time;
-  const double dt = left < 1.001 * dt_ ? left : dt_;
+  const double allowed = std::min(dt_, rhs_.time_course().longest_step(state.time));
+  const double dt = left < 1.001 * allowed ? left : allowed;
   Kokkos::deep_copy(ExecSpace(), start_, state.position);
   rhs_.compute_velocity(state.time, start_, velocity_);
   double radius = spectral_radius_;

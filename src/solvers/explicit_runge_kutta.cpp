@@ -43,10 +43,10 @@ ControlledIntegrator::Attempt ExplicitRungeKutta::attempt(const double time, con
   const std::size_t n_stages = tableau_.node.size();
   for (std::size_t stage = 1; stage < n_stages; ++stage) {
     add_stages(scratch_, dt, tableau_.matrix[stage]);
-    rhs_.compute_velocity(time + tableau_.node[stage] * dt, scratch_, stage_velocity_[stage - 1]);
+    compute_velocity(time + tableau_.node[stage] * dt, scratch_, stage_velocity_[stage - 1]);
   }
   add_stages(end_, dt, tableau_.weight);
-  rhs_.compute_velocity(time + dt, end_, end_velocity_);
+  compute_velocity(time + dt, end_, end_velocity_);
 
   const std::vector<double>& error = tableau_.error;
   combine<ExecSpace>(ExecSpace(), scratch_, {error[0] * dt, start_velocity_}, {error[n_stages] * dt, end_velocity_});

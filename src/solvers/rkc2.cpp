@@ -57,7 +57,8 @@ void Rkc2::prepare_again(const double time, const ConstVectors& position, const 
 }
 
 double Rkc2::probe_step() const {
-  return spectral_radius_ > 0.0 ? std::min(options_.max_step, 1.0 / spectral_radius_) : options_.max_step;
+  if (!(spectral_radius_ > 0.0)) return ControlledIntegrator::probe_step();
+  return std::min(ControlledIntegrator::largest_step(), 1.0 / spectral_radius_);
 }
 
 double Rkc2::largest_step() const {
@@ -94,7 +95,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
     const double nu = -b / b_2;
     mu_tilde = mu * w1 / w0;
     const double gamma_tilde = -a_1 * mu_tilde;
-    rhs_.compute_velocity(time + c_1 * dt, y_1, stage_velocity_);
+    compute_velocity(time + c_1 * dt, y_1, stage_velocity_);
     const Vectors& target = j == stages ? end_ : y;
     combine<ExecSpace>(ExecSpace(), target, {1.0 - mu - nu, start_}, {mu, y_1}, {nu, y_2},
                        {mu_tilde * dt, stage_velocity_}, {gamma_tilde * dt, start_velocity_});
@@ -111,7 +112,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
     c_2 = c_1, c_1 = c;
     a_1 = 1.0 - b * t;
   }
-  rhs_.compute_velocity(time + dt, end_, end_velocity_);
+  compute_velocity(time + dt, end_, end_velocity_);
   combine<ExecSpace>(ExecSpace(), scratch_, {0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_},
                      {0.4 * dt, end_velocity_});
   return {measure_error(scratch_, dt), stages, "", estimate_excess};

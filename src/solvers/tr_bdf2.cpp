@@ -90,8 +90,8 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
   double last_size = 0.0;
   for (int step = 0; step < max_newton_steps; ++step) {
     ++newton_steps_;
-    linearization_.set_position(time, end_);
-    rhs_.compute_velocity(time, end_, stage_velocity);
+    linearization_.set_position(inside_piece(time), end_);
+    compute_velocity(time, end_, stage_velocity);
     combine<ExecSpace>(space, scratch_, {1.0, constant}, {-1.0, end_});
     combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {scale, stage_velocity});
     Kokkos::deep_copy(space, correction_, 0.0);

@@ -18,6 +18,7 @@ class DecayingRightHandSide final : public RightHandSide, public Linearization {
   }
   std::string find_fault(const ConstVectors& position) const override { return equation_.find_fault(position); }
   std::int64_t evaluations() const override { return equation_.evaluations() + products_; }
+  const TimeCourse& time_course() const override { return equation_.course; }
   Linearization* linearization() override { return this; }
 
   void set_position(double, const ConstVectors&) override {}
@@ -38,6 +39,7 @@ class DecayingRightHandSide final : public RightHandSide, public Linearization {
   }
   std::string describe() const override { return "half the diagonal"; }
 
+  TimeCourse& course() { return equation_.course; }
   int factorizations = 0;
 
  private:

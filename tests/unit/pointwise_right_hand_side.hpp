@@ -34,6 +34,9 @@ class PointwiseRightHandSide final : public RightHandSide {
   }
 
   std::int64_t evaluations() const override { return evaluations_; }
+  const TimeCourse& time_course() const override { return course; }
+
+  TimeCourse course;  ///< what the velocity is said to do
 
  private:
   Velocity velocity_;

@@ -85,7 +85,7 @@ RunAnalysis make_rigid_run(const double half_period, const double end) {
   analysis.scene = make_paper_scene(80, end);
   analysis.fibers = make_fibers(analysis.scene.fibers);
   const Fiber& fiber = analysis.fibers[0];
-  analysis.histories.emplace_back(fiber);
+  analysis.histories.emplace_back(fiber, 0.4);
   const double sum = 2.5 * half_period / std::numbers::pi;  // r + 1/r
   const double ratio = 0.5 * (sum + std::sqrt(sum * sum - 4.0));
   for (int i = 0; 0.05 * i <= end; ++i) {

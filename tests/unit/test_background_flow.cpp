@@ -164,15 +164,13 @@ TEST(BackgroundFlow, RatesOscillateRiseAndFall) {
   EXPECT_EQ(compute_rate(flow, 6.0), 0.0);
 }
 
-TEST(BackgroundFlow, ScalesAreThoseOfWhatMovesAndWhatChanges) {
+TEST(BackgroundFlow, ScalesAreThoseOfTheMotion) {
   FlowConfig shear = make_config(FlowKind::shear), rotation = make_config(FlowKind::rotation);
   rotation.rate = 0.3;
   EXPECT_NEAR(make_background_flow({shear, rotation})->typical_rate(), 1.7, 1e-15);  // a rotation deforms nothing
   EXPECT_NEAR(make_background_flow({shear, rotation})->time_scale(), 0.5, 1e-15);
-  shear.angular_frequency = -8.0;
-  EXPECT_EQ(make_background_flow({shear, rotation})->time_scale(), 0.125);
-  rotation.ramp = 0.1;
-  EXPECT_NEAR(make_background_flow({shear, rotation})->time_scale(), 0.1, 1e-15);
+  shear.angular_frequency = -8.0, rotation.ramp = 0.1;  // are no motion, but a course
+  EXPECT_NEAR(make_background_flow({shear, rotation})->time_scale(), 0.5, 1e-15);
   EXPECT_EQ(make_background_flow({make_config(FlowKind::none)})->typical_rate(), 0.0);
   EXPECT_TRUE(std::isinf(make_background_flow({make_config(FlowKind::none)})->time_scale()));
 }

@@ -10,6 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <numbers>
+
 namespace skein {
 namespace {
 
@@ -202,6 +205,115 @@ TEST(TrBdf2, DampsWhatItDoesNotResolve) {
 TEST(TrBdf2, NeedsALinearization) {
   PointwiseRightHandSide rhs(make_slow().velocity);
   EXPECT_EQ(code_of([&] { TrBdf2(rhs, make_options(), n_nodes); }), ExitCode::internal);
+}
+
+/// A velocity that jumps twice, 2 while it is on, and turns into a parabola: no step may see it from both sides.
+struct Pulse {
+  double on, off;
+
+  double velocity(const double t) const { return t < on ? 0.3 : t < off ? 2.0 : 0.2 - 1.4 * t; }
+  double distance_by(const double end) const {
+    return 0.3 * (on - start_time) + 2.0 * (off - on) + 0.2 * (end - off) - 0.7 * (end * end - off * off);
+  }
+};
+
+TEST_P(Controlled, EndsStepsWhereVelocitiesBreak) {
+  const double end = start_time + 2.0;
+  for (const Pulse pulse : {Pulse{0.52, 0.525}, Pulse{0.3, 0.3 + 1e-9}, Pulse{0.7, 1.9}, Pulse{0.9, 0.9 + 4e-16}})
+    for (const double fixed_step : {0.0, 0.07}) {
+      DecayingRightHandSide rhs(
+          [&](const double t, int, Vec3) {
+            return Vec3{pulse.velocity(t), 0.0, 0.0};
+          },
+          {0.0, 0.0, 0.0, 0.0});
+      rhs.course().add_piece(pulse.on, pulse.off);
+      Rkc2Options options = make_options();
+      options.fixed_step = fixed_step;
+      const auto integrator = GetParam().make(rhs, options);
+      State state;
+      state.time = start_time;
+      state.position = to_device("test::position", std::vector<Vec3>(n_nodes));
+      const Vectors inside("test::inside", n_nodes);
+      bool was_on = false, was_off = false;
+      while (state.time < end) {
+        const double before = state.time;
+        integrator->advance(state, end);
+        was_on = was_on || state.time == pulse.on, was_off = was_off || state.time == pulse.off;
+        EXPECT_FALSE(before < pulse.on && state.time > pulse.on);
+        EXPECT_FALSE(before < pulse.off && state.time > pulse.off);
+        if (before < pulse.on) {
+          integrator->interpolate(0.5 * (before + state.time), inside);
+          EXPECT_NEAR(to_host(ConstVectors(inside))[1].x, 0.3 * (0.5 * (before + state.time) - start_time), 1e-14);
+        }
+      }
+      EXPECT_TRUE(was_on && was_off);
+      EXPECT_NEAR(to_host(ConstVectors(state.position))[2].x, pulse.distance_by(end), 1e-13) << pulse.on << fixed_step;
+    }
+}
+
+// A method keeps its order over a break: evaluations on the other side would leave an error of first order.
+TEST_P(Controlled, HasItsOrderBesideABreak) {
+  const double jump = 0.7013, end = start_time + 1.0;
+  const auto slope = [=](const double t) { return t < jump ? 0.52 * std::cos(1.3 * t) : 3.0 * std::cos(6.0 * t); };
+  const double exact =
+      0.4 * (std::sin(1.3 * jump) - std::sin(1.3 * start_time)) + 0.5 * (std::sin(6.0 * end) - std::sin(6.0 * jump));
+  const auto error_with = [&](const double dt) {
+    DecayingRightHandSide rhs(
+        [&](const double t, int, Vec3) {
+          return Vec3{slope(t), 0.0, 0.0};
+        },
+        {0.0, 0.0, 0.0, 0.0});
+    rhs.course().add_piece(jump, end + 1.0);
+    Rkc2Options options = make_options();
+    options.fixed_step = dt;
+    options.tolerance = 1e-13;
+    const auto integrator = GetParam().make(rhs, options);
+    State state;
+    state.time = start_time;
+    state.position = to_device("test::position", std::vector<Vec3>(n_nodes));
+    while (state.time < end) integrator->advance(state, end);
+    return std::abs(to_host(ConstVectors(state.position))[0].x - exact);
+  };
+  EXPECT_GT(std::log2(error_with(0.02) / error_with(0.01)), GetParam().order - 0.35);
+}
+
+TEST_P(Controlled, SeesEveryOscillation) {
+  const double period = 0.05, end = start_time + 1.0;
+  for (const double fixed_step : {0.0, 0.07}) {
+    DecayingRightHandSide rhs(
+        [=](const double t, int, Vec3) {
+          return Vec3{0.5 + std::cos(2.0 * std::numbers::pi * t / period), 0.0, 0.0};
+        },
+        {0.0, 0.0, 0.0, 0.0});
+    rhs.course().add_oscillation(0.0, 1e9, period);
+    Rkc2Options options = make_options();
+    options.fixed_step = fixed_step, options.tolerance = 0.5;
+    const auto integrator = GetParam().make(rhs, options);
+    State state;
+    state.time = start_time;
+    state.position = to_device("test::position", std::vector<Vec3>(n_nodes));
+    while (state.time < end) EXPECT_LE(integrator->advance(state, end).dt, period / 16.0 * (1.0 + 1e-12));
+    EXPECT_NEAR(to_host(ConstVectors(state.position))[0].x, 0.5, 1e-3);
+  }
+}
+
+// No limit is as good as any: the first step of a fast decay is found, whatever it is tried with.
+TEST_P(Controlled, FindsAStepFromAnyStart) {
+  const Case one{
+      "fast", make_forced([](double, const int node) { return node == 2 ? 200.0 : 0.7; }, 0.3), {0.7, 0.7, 200.0, 0.7}};
+  std::vector<std::int64_t> n_steps;
+  for (const double max_step : {0.5, 1e10, 1e300, std::numeric_limits<double>::infinity()}) {
+    DecayingRightHandSide rhs(one.problem.velocity, one.rate, 10.0);
+    Rkc2Options options = make_options();
+    options.max_step = max_step, options.time_scale = 30.0, options.tolerance = 1e-3;
+    const auto integrator = GetParam().make(rhs, options);
+    State state = make_state(one.problem);
+    while (state.time < 3.0) ASSERT_NO_THROW(integrator->advance(state, 3.0)) << max_step;
+    EXPECT_LT(distance(to_host(ConstVectors(state.position)), one.problem.solution_at(3.0)), 0.1);
+    n_steps.push_back(state.step);
+  }
+  EXPECT_EQ(n_steps[1], n_steps[2]);
+  EXPECT_EQ(n_steps[1], n_steps[3]);
 }
 
 }  // namespace

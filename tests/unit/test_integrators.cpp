@@ -216,5 +216,23 @@ TEST(Integrator, SaysWhatItIs) {
   EXPECT_NE(Rkc2(decay, make_options(), n_nodes).describe().find("0.0001"), std::string::npos);
 }
 
+TEST(Euler, EndsStepsWhereVelocitiesBreak) {
+  const double on = 0.52, off = 0.525, period = 0.3;
+  PointwiseRightHandSide rhs([=](const double t, int, Vec3) { return Vec3{t >= on && t < off ? 2.0 : 0.0, 0.0, 0.0}; });
+  rhs.course.add_piece(on, off);
+  rhs.course.add_oscillation(1.0, 2.0, period);
+  Euler euler(rhs, 0.1, 0.7, n_nodes);
+  State state;
+  state.position = to_device("test::position", std::vector<Vec3>(n_nodes));
+  while (state.time < 3.0) {
+    const double before = state.time, dt = euler.advance(state, 3.0).dt;
+    EXPECT_LE(dt, 0.1001 * (1.0 + 1e-12));
+    if (before >= 1.0 && before < 2.0) {
+      EXPECT_LE(dt, 1.001 * period / 16.0);
+    }
+  }
+  EXPECT_NEAR(to_host(ConstVectors(state.position))[3].x, 2.0 * (off - on), 1e-15);
+}
+
 }  // namespace
 }  // namespace skein

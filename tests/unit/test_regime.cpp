@@ -129,7 +129,7 @@ TEST(FiberHistory, RecognizesASnakeTurn) {
   config.sections = n_sections;
   config.nodes_per_section = 16;
   config.radius = radius;
-  FiberHistory history(make_fibers({config})[0]);
+  FiberHistory history(make_fibers({config})[0], 0.4);
   const double speed = 0.035;
   for (int i = 0; i <= 80; ++i) {
     const double time = 0.05 * i, place = 0.03 + speed * std::max(time - 1.0, 0.0);
@@ -152,6 +152,30 @@ TEST(FiberHistory, RecognizesASnakeTurn) {
   EXPECT_NEAR(summary.stretch_max, 0.0, 1e-2);
 }
 
+// The hooks of one motion, told in another unit of time.
+TEST(FiberHistory, MeasuresSnakingOverTheSameStretchInAnyUnitOfTime) {
+  FiberConfig config;
+  config.sections = n_sections;
+  config.nodes_per_section = 16;
+  config.radius = radius;
+  std::vector<Snaking> found;
+  for (const double unit : {1.0, 0x1p20, 0x1p-20}) {
+    FiberHistory history(make_fibers({config})[0], 0.4 * unit);
+    for (int i = 0; i <= 80; ++i) {
+      const double time = 0.05 * i;
+      history.add(unit * time,
+                  make_curve(make_snake(0.03 + 0.035 * std::max(time - 1.0, 0.0), std::min(time, 1.0) * 3.4)));
+    }
+    const FiberSummary summary = history.summarize();
+    ASSERT_TRUE(summary.snaking.has_value());
+    found.push_back(*summary.snaking);
+    EXPECT_EQ(found.back().begin, unit * found[0].begin);
+    EXPECT_EQ(found.back().end, unit * found[0].end);
+    EXPECT_EQ(found.back().hook_radius, found[0].hook_radius);
+    EXPECT_NEAR(found.back().speed * unit, found[0].speed, 1e-12 * found[0].speed);
+  }
+}
+
 // Half a sine that first shrinks, then grows exponentially, and stops where it is no longer small.
 TEST(FiberHistory, MeasuresHowFastABendGrows) {
   FiberConfig config;
@@ -159,7 +183,7 @@ TEST(FiberHistory, MeasuresHowFastABendGrows) {
   config.nodes_per_section = 16;
   config.radius = radius;
   const Fiber fiber = make_fibers({config})[0];
-  FiberHistory history(fiber);
+  FiberHistory history(fiber, 0.4);
   const double fiber_length = fiber.length(), rate = 1.7, amplitude = 1e-4 * fiber_length;
   for (int i = 0; i <= 100; ++i) {
     const double time = 0.05 * i;
@@ -186,7 +210,7 @@ TEST(FiberHistory, MeasuresHowFastABendGrows) {
 TEST(FiberHistory, NoGrowthOfAStraightFiber) {
   FiberConfig config;
   config.sections = n_sections;
-  FiberHistory history(make_fibers({config})[0]);
+  FiberHistory history(make_fibers({config})[0], 0.4);
   for (int i = 0; i < 20; ++i) history.add(0.1 * i, make_curve([](double) { return 0.0; }));
   EXPECT_EQ(history.summarize().deflection_growth.n_points, 0);
 }

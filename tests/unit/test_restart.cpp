@@ -180,6 +180,24 @@ TEST(Restart, WithAnotherNumberOfNodesIsRefused) {
   EXPECT_EQ(code_of([&] { two.restore(one.save()); }), ExitCode::damaged_data);
 }
 
+// The step after a break begins with a velocity of its own, also where a run goes on from there.
+TEST(Restart, BesideBreaksIsExactWithEveryMethod) {
+  for (const TimeMethod method :
+       {TimeMethod::rkc2, TimeMethod::trbdf2, TimeMethod::rk4, TimeMethod::bs3, TimeMethod::euler}) {
+    SCOPED_TRACE(static_cast<int>(method));
+    SceneConfig scene = make_scene(1, [&](TimeConfig& time) {
+      time.method = method, time.end = 0.12, time.max_step = 0.01;
+      if (method == TimeMethod::euler) time.step = 2e-4;
+    });
+    FlowConfig pulse;
+    pulse.start = 0.0301, pulse.stop = 0.0302;
+    FlowConfig swing;
+    swing.start = 0.02, swing.stop = 0.07, swing.ramp = 0.004, swing.angular_frequency = 50.0;
+    scene.flows.insert(scene.flows.end(), {pulse, swing});
+    expect_exact_restarts(scene, 20);
+  }
+}
+
 // Leaves a step in the middle, at any of its evaluations.
 class InterruptedDynamics final : public RightHandSide {
  public:
@@ -191,6 +209,7 @@ class InterruptedDynamics final : public RightHandSide {
   }
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
+  const TimeCourse& time_course() const override { return dynamics_.time_course(); }
   void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
   Linearization* linearization() override { return dynamics_.linearization(); }
   int n_left = -1;  ///< evaluations until it happens; none for a negative number

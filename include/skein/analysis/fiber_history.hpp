@@ -40,7 +40,8 @@ struct FiberSummary {
 /// The centreline of one fiber through time, moment by moment.
 class FiberHistory {
  public:
-  explicit FiberHistory(const Fiber& fiber);
+  /// @param time_scale  of the motion, 1 / shear rate; > 0, time
+  FiberHistory(const Fiber& fiber, double time_scale);
 
   /// Times must grow. @param centreline  [n_sections], length
   void add(double time, std::span<const Vec3> centreline);
@@ -62,6 +63,7 @@ class FiberHistory {
   std::optional<Snaking> measure_snaking() const;
 
   Fiber fiber_;
+  double time_scale_;
   int reach_;
   std::vector<double> time_, curvature_, arclength_;
   std::vector<Shape> shapes_;

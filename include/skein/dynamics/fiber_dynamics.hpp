@@ -23,6 +23,7 @@ class FiberDynamics final : public RightHandSide {
   static constexpr double burst_ratio = 2.0;
 
   std::int64_t evaluations() const override { return evaluations_; }
+  const TimeCourse& time_course() const override { return course_; }
 
   /// What the mobility remembers.
   void visit_memory(MemoryVisitor& visitor) override { physics_.mobility->visit_memory(visitor); }
@@ -45,6 +46,7 @@ class FiberDynamics final : public RightHandSide {
   std::string describe_fault(const ConstVectors& position, int node) const;
 
   Physics& physics_;
+  TimeCourse course_;
   Vectors force_;
   std::int64_t evaluations_ = 0;
   Seconds seconds_;

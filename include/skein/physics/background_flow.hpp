@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/arrays/types.hpp>
+#include <skein/core/time_course.hpp>
 #include <skein/physics/velocity_gradient.hpp>
 #include <skein/scene/scene_config.hpp>
 
@@ -28,8 +29,11 @@ class BackgroundFlow {
   /// flows counts as if all were largest at one place and time. 1 / time
   virtual double typical_rate() const = 0;
 
-  /// Shortest time in which the flow changes, or changes what it carries; infinite for a fluid at rest.
+  /// Time in which the flow changes what it carries, where it is at its strongest; infinite for a fluid at rest.
   virtual double time_scale() const = 0;
+
+  /// Adds when it changes by itself; nothing of a steady flow.
+  virtual void add_course(TimeCourse& /*course*/) const {}
 
   /// One line for the first lines of a run.
   virtual std::string describe() const = 0;

@@ -2,6 +2,7 @@
 
 #include <skein/arrays/types.hpp>
 #include <skein/core/symmetric_tensor.hpp>
+#include <skein/core/time_course.hpp>
 #include <skein/fibers/fiber.hpp>
 
 #include <limits>
@@ -59,8 +60,12 @@ class Force {
   /// The largest relative change of length of its bonds; 0 for a force without bonds. Waits for the device.
   virtual double compute_largest_strain(const ConstVectors& /*position*/) const { return 0.0; }
 
-  /// Shortest time in which it changes by itself; infinite for a steady force.
+  /// Time in which it carries a fiber by the fiber's length, or turns it around; infinite for a force that moves
+  /// nothing but what something else has moved, such as springs.
   virtual double time_scale() const { return std::numeric_limits<double>::infinity(); }
+
+  /// Adds when it changes by itself; nothing of a steady force.
+  virtual void add_course(TimeCourse& /*course*/) const {}
 
   /// One line for the first lines of a run.
   virtual std::string describe() const = 0;

@@ -41,9 +41,12 @@ struct Physics {
   /// True where some force acts between fibers, such as one that keeps them apart.
   bool has_force_between_fibers() const;
 
-  /// Shortest time in which the flow or a force changes, or the flow changes what it carries; infinite where nothing
-  /// does.
+  /// The scene's own time, by which steps and tolerances are measured: the shortest in which the flow or a force moves
+  /// fibers; where nothing moves them, that in which a bend of the quickest fiber relaxes.
   double time_scale() const;
+
+  /// When the flow and the forces change by themselves.
+  TimeCourse make_time_course() const;
 
   /// The forces in words, a line; springs, which every scene has, are passed over. Empty where there are no others.
   std::string describe_forces() const;

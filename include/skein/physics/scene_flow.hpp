@@ -16,6 +16,7 @@ class SceneFlow final : public BackgroundFlow {
   VelocityGradient gradient(double time, Vec3 position) const override;
   double typical_rate() const override;
   double time_scale() const override;
+  void add_course(TimeCourse& course) const override;
   std::string describe() const override;
 
  private:

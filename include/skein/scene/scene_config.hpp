@@ -121,16 +121,17 @@ struct HydrodynamicsConfig {
   OnMiss on_miss = OnMiss::raise_order;
 };
 
+/// Zeros stand for what goes with the scene's own time, whatever its units; see resolve_times.
 struct TimeConfig {
   TimeMethod method = TimeMethod::rkc2;
-  double end = 12.0;        ///< time
-  double step = 0.0;        ///< time; 0 lets the error control choose; euler needs one
-  double tolerance = 1e-4;  ///< error per unit time, as a fraction of the longest fiber's length
-  double max_step = 0.1;    ///< time
+  double end = 12.0;       ///< time
+  double step = 0.0;       ///< time; 0 lets the error control choose; euler needs one
+  double tolerance = 0.0;  ///< error per unit time, as a fraction of the longest fiber's length, 1 / time
+  double max_step = 0.0;   ///< time; may be infinite
 };
 
 struct OutputConfig {
-  double frame_interval = 0.05;                ///< time between frames
+  double frame_interval = 0.0;                 ///< time between frames; 0 as in TimeConfig
   Precision precision = Precision::in_double;  ///< of positions in frames; never automatic
 };
 

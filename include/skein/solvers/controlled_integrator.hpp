@@ -42,6 +42,10 @@ class ControlledIntegrator : public Integrator {
   virtual double spectral_radius() const { return 0.0; }
   virtual double probe_step() const;  ///< for the guess of the first step, time
 
+  /// Velocities as they are in the step in work: at its end, where they are not smooth, those before.
+  void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity);
+  double inside_piece(const double time) const { return time < latest_time_ ? time : latest_time_; }
+
   /// The root mean square of a local error over what is allowed in a step of dt.
   double measure_error(const ConstVectors& error, double dt) const;
   double allowed_error(double dt) const;
@@ -60,7 +64,7 @@ class ControlledIntegrator : public Integrator {
   StepReport take_step(State& state, double end) final;
   void swap_ends();
   double first_step(double time);
-  double choose_step() const;
+  double choose_step(double time) const;
   double shortest_accounting_time() const;
   [[noreturn]] void give_up(const State& state, const StepReport& report, double dt, const std::string& fault) const;
 
@@ -70,6 +74,7 @@ class ControlledIntegrator : public Integrator {
   double next_dt_ = 0.0;
   bool started_ = false;
   double step_start_ = 0.0, step_end_ = 0.0;
+  double latest_time_ = 0.0;  ///< of evaluations in the step in work
 };
 
 }  // namespace skein

@@ -32,7 +32,8 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Takes one accepted step that does not pass `end`, replacing state.time, state.step and state.position.
+  /// Takes one accepted step that does not pass `end`, nor a time at which the right-hand side is not smooth, replacing
+  /// state.time, state.step and state.position.
   /// @throws Error(numerical) naming node and time when positions are no longer finite, when they left the model's
   ///         range, or when the step fell below its minimum. After this and any other exception the state and what this
   ///         object and the right-hand side remember are those before the call: callers have nothing to undo.
@@ -55,7 +56,8 @@ class Integrator {
   /// @param rhs  must outlive the integrator
   explicit Integrator(RightHandSide& rhs) : rhs_(rhs) {}
 
-  /// The step itself. The state is changed only once the step is accepted.
+  /// The step itself; it may be as long as the right-hand side's time course allows. The state is changed only once the
+  /// step is accepted.
   virtual StepReport take_step(State& state, double end) = 0;
 
   RightHandSide& rhs_;

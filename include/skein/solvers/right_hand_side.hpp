@@ -2,6 +2,7 @@
 
 #include <skein/arrays/memory_visitor.hpp>
 #include <skein/arrays/types.hpp>
+#include <skein/core/time_course.hpp>
 #include <skein/solvers/linearization.hpp>
 
 #include <cstdint>
@@ -25,6 +26,13 @@ class RightHandSide {
 
   /// All that later velocities depend on besides the arguments.
   virtual void visit_memory(MemoryVisitor& /*visitor*/) {}
+
+  /// When velocities change by themselves: integrators end steps where they are not smooth. At such a time, a velocity
+  /// is that of what comes after.
+  virtual const TimeCourse& time_course() const {
+    static const TimeCourse steady;
+    return steady;
+  }
 
   /// Its stiff part; null where it has none to offer. Belongs to this object.
   virtual Linearization* linearization() { return nullptr; }

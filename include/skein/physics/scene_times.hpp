@@ -1,0 +1,17 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+namespace skein {
+
+/// What Physics::time_scale says of a scene whose fibers are as written (see place_fibers), without a device. Time
+double find_time_scale(const SceneConfig& scene);
+
+/// The same times with numbers in place of the zeros that stand for what goes with the time scale.
+TimeConfig resolve_time(TimeConfig time, double time_scale);
+
+/// The same for a scene: it depends on no default any more.
+/// @throws Error(scene_error) where a number makes no sense beside the scene's time scale
+SceneConfig resolve_times(SceneConfig scene);
+
+}  // namespace skein

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <skein/fibers/fiber.hpp>
+#include <skein/scene/scene_config.hpp>
+
+#include <vector>
+
+namespace skein {
+
+// Times in which what acts on fibers carries one of them by its length, or turns it around: estimates, with the drag
+// of a slender rod, that go with the units of time and length. Infinite where nothing moves; the shortest of all
+// fibers.
+
+double find_falling_time(double weight, const std::vector<Fiber>& fibers, double viscosity);
+
+/// Of tethers whose points move; those that stand still only hold.
+double find_tether_time(const std::vector<TetherConfig>& tethers, const std::vector<Fiber>& fibers);
+
+double find_torque_time(const std::vector<TorqueConfig>& torques, const std::vector<Fiber>& fibers, double viscosity);
+
+/// In which the slowest bend of a free fiber relaxes.
+double find_relaxation_time(const std::vector<Fiber>& fibers, double viscosity);
+
+}  // namespace skein

@@ -1,0 +1,70 @@
+#include <skein/core/error.hpp>
+#include <skein/fibers/fiber.hpp>
+#include <skein/physics/flow_summary.hpp>
+#include <skein/physics/scene_times.hpp>
+
+#include "motion_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein {
+namespace {
+
+constexpr double least_error = 1e-13;  // in a time scale, over the length: less is lost in the rounding of positions
+constexpr double n_steps_allowed = 1e12;
+constexpr double n_frames_allowed = 1e7;
+
+void check_times(const SceneConfig& scene, const double time_scale) {
+  const TimeConfig& time = scene.time;
+  const auto reject = [&](const std::string& what) {
+    throw Error(ExitCode::scene_error, fmt::format("{} (the scene's time scale is {:.3g})", what, time_scale));
+  };
+  const double reach = time.end > 0.0 ? std::min(time.end, time_scale) : time_scale;
+  if (time.method != TimeMethod::euler && time.tolerance * reach > 1.0)
+    reject(
+        fmt::format("time.tolerance {:g} allows an error of {:.3g} fiber lengths within a time of {:.3g}: take a "
+                    "smaller one, or leave the key out",
+                    time.tolerance, time.tolerance * reach, reach));
+  if (time.method != TimeMethod::euler && time.tolerance * time_scale < least_error)
+    reject(
+        fmt::format("time.tolerance {:g} is below the rounding of positions, {:.3g} per unit of time: take a larger "
+                    "one, or leave the key out",
+                    time.tolerance, least_error / time_scale));
+  if (time.end / (time.step > 0.0 ? time.step : time.max_step) > n_steps_allowed)
+    reject(fmt::format("time.end {:g} would take more than {:.0e} steps of {:.3g}", time.end, n_steps_allowed,
+                       time.step > 0.0 ? time.step : time.max_step));
+  if (time.end / scene.output.frame_interval > n_frames_allowed)
+    reject(fmt::format("time.end {:g} would make more than {:.0e} frames: set output.frame_interval", time.end,
+                       n_frames_allowed));
+}
+
+}  // namespace
+
+double find_time_scale(const SceneConfig& scene) {
+  const auto fibers = make_fibers(scene.fibers);
+  const double viscosity = scene.fluid.viscosity;
+  const double scale = std::min({summarize_flow(scene.flows).time_scale, find_tether_time(scene.tethers, fibers),
+                                 find_torque_time(scene.torques, fibers, viscosity),
+                                 find_falling_time(scene.gravity.weight, fibers, viscosity)});
+  return std::isfinite(scale) ? scale : find_relaxation_time(fibers, viscosity);
+}
+
+// In shear of rate 2.5 these are 1e-4 and 0.1, to the last bit.
+TimeConfig resolve_time(TimeConfig time, const double time_scale) {
+  if (time.tolerance == 0.0) time.tolerance = 1e-4 / (2.5 * time_scale);
+  if (time.max_step == 0.0) time.max_step = std::max(0.25 * time_scale, time.step);
+  return time;
+}
+
+SceneConfig resolve_times(SceneConfig scene) {
+  const double time_scale = find_time_scale(scene);
+  scene.time = resolve_time(scene.time, time_scale);
+  if (scene.output.frame_interval == 0.0) scene.output.frame_interval = 0.125 * time_scale;
+  check_times(scene, time_scale);
+  return scene;
+}
+
+}  // namespace skein
