@@ -46,19 +46,19 @@ RunFolder make_folder(const RunOptions& options, const std::string& scene_text, 
 }
 
 int run_scene(const RunOptions& options) {
-  const SceneReading reading = read_placed_scene(options.scene, options.overrides);
-  if (!options.quiet && !reading.warnings.empty()) print_warning(describe_problems(reading.warnings));
+  const PlacedScene placed = read_placed_scene(options.scene, options.overrides);
+  if (!options.quiet && !placed.warnings.empty()) print_warning(describe_problems(placed.warnings));
 
   const Runtime runtime(options.threads);
   if (options.dry_run) {
-    fmt::print("{}\n", describe_dry_run(reading.config));
+    fmt::print("{}\n", describe_dry_run(placed.config));
     return 0;
   }
   RunControl control(options.max_walltime);
   std::optional<RunLock> lock;
-  const RunFolder folder = make_folder(options, write_scene(reading.config), lock);
+  const RunFolder folder = make_folder(options, placed.text, lock);
   TerminalListener listener(options.quiet);
-  return static_cast<int>(simulate(reading.config, folder, nullptr, control, listener));
+  return static_cast<int>(simulate(placed.config, folder, nullptr, control, listener));
 }
 
 }  // namespace

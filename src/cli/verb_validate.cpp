@@ -43,7 +43,7 @@ void print_json(const bool valid, const std::vector<Problem>& problems, const st
 }
 
 int validate_scene(const ValidateOptions& options) {
-  SceneReading scene;
+  PlacedScene scene;
   try {
     scene = read_placed_scene(options.scene, options.overrides);
   } catch (const SceneError& error) {

@@ -5,18 +5,21 @@
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
 
+#include <utility>
+
 namespace skein {
 
-SceneReading read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   SceneReading reading = read_scene(file, overrides, find_mobility_problems);
   try {
     reading.config = resolve_times(place_fibers(reading.config));
     check_overlap(make_fibers(reading.config.fibers), reading.config.seed);
+    std::string text = write_readable_scene(reading.config);
+    return {std::move(reading.config), std::move(reading.warnings), std::move(text)};
   } catch (const Error& error) {
     if (error.code() != ExitCode::scene_error) throw;
     throw SceneError(file.string(), {Problem{{file.string(), 0, 0, -1}, error.what(), ""}});
   }
-  return reading;
 }
 
 }  // namespace skein

@@ -8,9 +8,15 @@
 
 namespace skein {
 
-/// Reads a scene and puts its fibers where they belong: each copy is then a fiber of the list. What goes with the
-/// scene's time scale has become a number.
-/// @throws what read_scene throws; SceneError where fibers find no place or overlap
-SceneReading read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides);
+/// A scene with each copy of a fiber in its list.
+struct PlacedScene {
+  SceneConfig config;
+  std::vector<Problem> warnings;
+  std::string text;  ///< with every key, as a run folder holds it; it is known to be read back as `config`
+};
+
+/// Reads a scene and puts its fibers where they belong. What goes with the scene's time scale has become a number.
+/// @throws what read_scene and write_readable_scene throw; SceneError where fibers find no place or overlap
+PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 }  // namespace skein

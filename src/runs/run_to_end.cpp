@@ -28,7 +28,7 @@ RunFolder open_or_create(const std::filesystem::path& path, const std::string& s
 
 ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& path, const double max_walltime,
                     RunListener& listener) {
-  const RunFolder folder = open_or_create(path, write_scene(resolve_times(scene)));
+  const RunFolder folder = open_or_create(path, write_readable_scene(resolve_times(scene)));
   const RunLock lock(folder);
   const ResumePoint point = find_resume_point(folder);
   if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) return ExitCode::done;

@@ -1,5 +1,7 @@
 #include "overrides.hpp"
 
+#include <skein/core/utf8.hpp>
+
 #include "repeatable_tables.hpp"
 #include "toml_parser.hpp"
 
@@ -24,6 +26,15 @@ struct Override {
   std::optional<std::size_t> instance;  ///< of fiber[1].key
   SceneValue value;
 };
+
+// A scene's file is UTF-8, or it is refused; what a run writes into its folder must be read back.
+void check_is_utf8(const std::string& override) {
+  const std::size_t fault = find_utf8_fault(override);
+  if (fault == std::string::npos) return;
+  throw OverrideError{fmt::format(
+      "its byte {}, 0x{:02x}, is no UTF-8; write the text in UTF-8 (a terminal of another encoding may have sent it)",
+      fault + 1, static_cast<unsigned char>(override[fault]))};
+}
 
 void set_places(SceneValue& value, const Place& place) {
   value.place = value.name_place = place;
@@ -166,6 +177,7 @@ void apply_overrides(SceneValue& root, const SceneSource& source, std::vector<Pr
   for (std::size_t i = 0; i < source.overrides().size(); ++i) {
     const Place place{0, 0, static_cast<int>(i)};
     try {
+      check_is_utf8(source.overrides()[i]);
       Override override = parse_override(source.overrides()[i]);
       set_places(override.value, place);
       apply(root, override, place);

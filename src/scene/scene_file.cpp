@@ -18,8 +18,6 @@
 namespace skein {
 namespace {
 
-constexpr std::size_t n_bytes_allowed = 16 * 1024 * 1024;
-
 [[noreturn]] void throw_single(const SceneSource& source, const Place& place, const std::string& message) {
   throw SceneError(source.name(), {Problem{source.locate(place), message, ""}});
 }
@@ -78,17 +76,45 @@ SceneReading read_scene(const std::filesystem::path& file, const std::vector<std
   }
   std::ifstream stream(file, std::ios::binary);
   // One byte more than allowed tells a file that is too large; its size may be unknown, as that of a pipe is.
-  std::string text(n_bytes_allowed + 1, '\0');
+  std::string text(largest_scene + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (!stream.eof() && !stream.good()) {
     throw Error(ExitCode::missing_input,
                 fmt::format("the scene {} cannot be read: {}", file.string(), std::strerror(errno)));
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > n_bytes_allowed) {
-    throw_single({file.string(), {}}, {1, 1}, "the file is larger than 16 MiB, which no scene is");
+  if (text.size() > largest_scene) {
+    throw_single({file.string(), {}}, {1, 1},
+                 fmt::format("the file is larger than {} MiB, which no scene is", largest_scene >> 20));
   }
   return read_scene_text(text, file.string(), overrides, check);
+}
+
+std::string write_readable_scene(const SceneConfig& scene) {
+  std::string text = write_scene(scene);
+  if (text.size() > largest_scene)
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("with every key of its {} fibers the scene has {:.1f} MiB, and no more than {} MiB are read "
+                    "again from a run folder: use fewer fibers, or fewer pairs in stiffness_profile",
+                    scene.fibers.size(), static_cast<double>(text.size()) / (1 << 20), largest_scene >> 20));
+  SceneConfig expected = scene;
+  if (expected.flows.empty()) expected.flows.push_back({.kind = FlowKind::none});  // as it is written
+  SceneConfig found;
+  try {
+    found = read_scene_text(text, "the resolved scene", {}).config;
+  } catch (const SceneError& error) {
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("a run of this scene could not be resumed, since the scene with every key would be refused: "
+                    "{}",
+                    error.what()));
+  }
+  if (!(found == expected))
+    throw Error(ExitCode::scene_error,
+                "a run of this scene could not be resumed: with every key written it is read as another one. Look for "
+                "unusual characters in its title, and please report it");
+  return text;
 }
 
 }  // namespace skein

@@ -94,8 +94,8 @@ class BadScenes(InFreshFolder):
     def test_invalid_utf8_is_found_at_its_place(self):
         self.check_single(b'[fiber]\n\ntitle = "a\xff"\n', "scene.toml:3:")
 
-    def test_a_file_of_more_than_16_mib_is_refused(self):
-        self.check_single("[fiber]\n" + "#" * (16 * 1024 * 1024), "16 MiB")
+    def test_a_file_of_more_than_64_mib_is_refused(self):
+        self.check_single("[fiber]\n" + "#" * (64 * 1024 * 1024), "64 MiB")
         result = self.validate_content("[fiber]\n" + "#" * (15 * 1024 * 1024))
         self.assertEqual(result.returncode, DONE, result.stderr)
 
@@ -243,6 +243,44 @@ class CommandLine(InFreshFolder):
                 result = subprocess.run([PROGRAM, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
                 self.assertEqual(result.returncode, IO_ERROR)
                 self.assertIn("standard output", result.stderr)
+
+
+class WhatARunWrites(InFreshFolder):
+    """is read back: refused before the first byte, or good for verify and resume."""
+
+    TINY = "[fiber]\nsections = 4\nnodes_per_section = 3\nblob = 0.0045\n[time]\nend = 0.05\n"
+    LATIN_1 = "caf\udce9"  # the byte 0xe9 alone
+
+    def run_to_the_end(self, folder, *arguments):
+        self.write(self.TINY)
+        result = skein("run", "scene.toml", "-o", folder, "-q", *arguments, cwd=self.folder)
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        for verb in (["verify"], ["info"], ["resume", "-q"], ["analyze"]):
+            result = skein(*verb, folder, cwd=self.folder)
+            self.assertEqual(result.returncode, DONE, f"{verb}: {result.stderr}")
+
+    def test_a_title_in_another_encoding_is_refused(self):
+        self.write(self.TINY)
+        for title in (self.LATIN_1, f'"{self.LATIN_1}"', "\udced\udca0\udc80"):
+            result = skein("run", "scene.toml", "-o", "result", "-q", "--set", f"title={title}", cwd=self.folder)
+            self.assertEqual(result.returncode, SCENE_ERROR, result.stderr)
+            self.assertIn("is no UTF-8", result.stderr)
+            self.assertEqual([path.name for path in self.folder.iterdir()], ["scene.toml"])
+
+    def test_unusual_titles_serve(self):
+        titles = ("caf\u00e9 \u6587 \U0001f9ec", '"a\\u0085\\u200f\\\\\\"b"', "\u00ad\ufffe \u2028")
+        for number, title in enumerate(titles):
+            self.run_to_the_end(f"result{number}", "--set", f"title={title}")
+
+    def test_a_folder_whose_name_is_no_utf8_serves(self):
+        self.run_to_the_end(self.LATIN_1)
+
+    def test_a_scene_that_grows_too_large_by_its_escapes_is_refused(self):
+        self.write('title = "' + "\\b" * 12_000_000 + '"\n' + self.TINY)  # each is written as \u0008
+        result = skein("run", "scene.toml", "-o", "result", "-q", cwd=self.folder)
+        self.assertEqual(result.returncode, SCENE_ERROR, result.stderr)
+        self.assertIn("no more than 64 MiB", result.stderr)
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["scene.toml"])
 
 
 class Threads(InFreshFolder):

@@ -145,6 +145,57 @@ TEST(SceneFile, WrittenSceneReadsBackToTheSameBits) {
   EXPECT_EQ(write_scene(read(written)), written);
 }
 
+// What a run folder holds must serve whoever resumes the run.
+TEST(SceneFile, AReadableSceneIsTheWrittenOne) {
+  const SceneConfig scene = make_unusual_scene();
+  EXPECT_EQ(write_readable_scene(scene), write_scene(scene));
+}
+
+TEST(SceneFile, AnyTitleInUtf8IsReadBack) {
+  SceneConfig scene = read("[fiber]\n");
+  for (unsigned code = 1; code < 0x110000; code += code < 0x3000 ? 1 : 97) {
+    if (code >= 0xd800 && code < 0xe000) continue;  // no characters
+    std::string character;
+    if (code < 0x80) {
+      character = {static_cast<char>(code)};
+    } else if (code < 0x800) {
+      character = {static_cast<char>(0xc0 | code >> 6), static_cast<char>(0x80 | (code & 0x3f))};
+    } else if (code < 0x10000) {
+      character = {static_cast<char>(0xe0 | code >> 12), static_cast<char>(0x80 | (code >> 6 & 0x3f)),
+                   static_cast<char>(0x80 | (code & 0x3f))};
+    } else {
+      character = {static_cast<char>(0xf0 | code >> 18), static_cast<char>(0x80 | (code >> 12 & 0x3f)),
+                   static_cast<char>(0x80 | (code >> 6 & 0x3f)), static_cast<char>(0x80 | (code & 0x3f))};
+    }
+    scene.title += character;
+  }
+  EXPECT_EQ(read(write_readable_scene(scene)).title, scene.title);
+}
+
+TEST(SceneFile, ASceneThatCouldNotBeReadAgainIsRefused) {
+  SceneConfig scene = read("[fiber]\n");
+  scene.title = "caf\xe9";
+  EXPECT_THROW(write_readable_scene(scene), Error);
+  scene.title = std::string(largest_scene, 'x');
+  try {
+    write_readable_scene(scene);
+    ADD_FAILURE() << "a scene of more than is read was written";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::scene_error);
+    EXPECT_NE(std::string(error.what()).find("64 MiB"), std::string::npos) << error.what();
+  }
+}
+
+TEST(SceneOverrides, MustBeUtf8) {
+  for (const char* text : {"title=caf\xe9", "title=\"caf\xe9\"", "t\xc3=1", "flow.kind=\xff", "title=\xed\xa0\x80"}) {
+    const auto problems = problems_of("[fiber]\n", {text});
+    ASSERT_EQ(problems.size(), 1u) << text;
+    EXPECT_EQ(problems[0].find("--set "), 0u) << problems[0];
+    EXPECT_NE(problems[0].find("is no UTF-8"), std::string::npos) << problems[0];
+  }
+  EXPECT_EQ(read("[fiber]\n", {"title=caf\xc3\xa9"}).title, "caf\xc3\xa9");
+}
+
 TEST(SceneFile, WrittenSceneShowsAllKeysOfTheDefaults) {
   SceneConfig defaults;
   defaults.fibers.resize(1);

@@ -15,6 +15,7 @@ namespace skein {
 
 struct FluidConfig {
   double viscosity = 1.0;  ///< > 0, force * time / length^2
+  friend bool operator==(const FluidConfig&, const FluidConfig&) = default;
 };
 
 /// A part of the flow far from all fibers; several instances add up. With x, y, z measured from `center` and r(t) the
@@ -36,6 +37,7 @@ struct FlowConfig {
   double start = 0.0;              ///< time; zero before
   double stop = 0.0;               ///< time; zero after; 0: never
   double ramp = 0.0;               ///< time that rise and fall take
+  friend bool operator==(const FlowConfig&, const FlowConfig&) = default;
 };
 
 /// Springs at `position` along a fiber (0: first section, 1: last) are `factor` times as stiff.
@@ -65,6 +67,7 @@ struct FiberConfig {
   double stiffness_between_sections = 1.0;                              ///< factor of spring_stiffness
   int reach_along = 1;                                                  ///< springs join sections up to this far apart
   int reach_around = 0;  ///< ... and nodes whose places on their sections differ by up to this; 0: all
+  friend bool operator==(const FiberConfig&, const FiberConfig&) = default;
 };
 
 /// Where the fibers of a scene stand.
@@ -77,6 +80,7 @@ struct PlacementConfig {
   Vec3 box{1.0, 1.0, 1.0};      ///< sides of the box that holds random fibers, length
   double gap = 0.0;             ///< between surfaces of random fibers at least, length
   Orientation orientation = Orientation::as_written;
+  friend bool operator==(const PlacementConfig&, const PlacementConfig&) = default;
 };
 
 /// What keeps fibers, and distant sections of one, from touching. Two sections with a gap g < range between their
@@ -84,12 +88,14 @@ struct PlacementConfig {
 struct RepulsionConfig {
   double strength = 0.0;  ///< force / length; 0: none
   double range = 0.0;     ///< length; 0: the radius of the thinnest fiber
+  friend bool operator==(const RepulsionConfig&, const RepulsionConfig&) = default;
 };
 
 /// The weight of fibers in the fluid, less the fluid's.
 struct GravityConfig {
   double weight = 0.0;             ///< of a length of fiber, force / length; 0: none
   Vec3 direction{0.0, 0.0, -1.0};  ///< any length but zero
+  friend bool operator==(const GravityConfig&, const GravityConfig&) = default;
 };
 
 /// A spring that holds a section of a fiber at a point, which may move:
@@ -100,6 +106,7 @@ struct TetherConfig {
   double stiffness = 1.0;  ///< force / length
   Vec3 point{0.0, 0.0, 0.0}, velocity{0.0, 0.0, 0.0}, swing{0.0, 0.0, 0.0};
   double angular_frequency = 0.0;  ///< radians / time
+  friend bool operator==(const TetherConfig&, const TetherConfig&) = default;
 };
 
 /// A torque on a section of a fiber, as forces on its nodes whose sum is zero; it turns about angular_velocity.
@@ -108,6 +115,7 @@ struct TorqueConfig {
   int section = 0;                       ///< from 0, or from the end as -1
   Vec3 torque{0.0, 0.0, 0.0};            ///< at t = 0, force * length
   Vec3 angular_velocity{0.0, 0.0, 0.0};  ///< of its direction, radians / time
+  friend bool operator==(const TorqueConfig&, const TorqueConfig&) = default;
 };
 
 struct HydrodynamicsConfig {
@@ -119,6 +127,7 @@ struct HydrodynamicsConfig {
   int leaf_size = 0;     ///< nodes per leaf of the tree; 0: as the order needs
   int check_every = 50;  ///< evaluations from check to check; 0: no checks
   OnMiss on_miss = OnMiss::raise_order;
+  friend bool operator==(const HydrodynamicsConfig&, const HydrodynamicsConfig&) = default;
 };
 
 /// Zeros stand for what goes with the scene's own time, whatever its units; see resolve_times.
@@ -128,17 +137,20 @@ struct TimeConfig {
   double step = 0.0;       ///< time; 0 lets the error control choose; euler needs one
   double tolerance = 0.0;  ///< error per unit time, as a fraction of the longest fiber's length, 1 / time
   double max_step = 0.0;   ///< time; may be infinite
+  friend bool operator==(const TimeConfig&, const TimeConfig&) = default;
 };
 
 struct OutputConfig {
   double frame_interval = 0.0;                 ///< time between frames; 0 as in TimeConfig
   Precision precision = Precision::in_double;  ///< of positions in frames; never automatic
+  friend bool operator==(const OutputConfig&, const OutputConfig&) = default;
 };
 
 struct CheckpointConfig {
   double wall_interval = 300.0;     ///< seconds of wall time; 0: none by the clock
   double simulated_interval = 0.0;  ///< time; 0: none by simulated time
   int keep = 3;                     ///< newest ones
+  friend bool operator==(const CheckpointConfig&, const CheckpointConfig&) = default;
 };
 
 struct SceneConfig {
@@ -156,6 +168,7 @@ struct SceneConfig {
   TimeConfig time;
   OutputConfig output;
   CheckpointConfig checkpoint;
+  friend bool operator==(const SceneConfig&, const SceneConfig&) = default;
 };
 
 }  // namespace skein

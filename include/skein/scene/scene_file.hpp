@@ -40,4 +40,12 @@ SceneReading read_scene_text(const std::string& text, const std::string& name,
 /// The scene as TOML with every key, so that it no longer depends on defaults. Reads back to identical values.
 std::string write_scene(const SceneConfig& scene);
 
+/// Bytes of the longest text that is read as a scene. Of a thousand fibers with every key it has about one hundredth.
+inline constexpr std::size_t largest_scene = std::size_t{64} << 20;
+
+/// write_scene, read again and compared before anybody relies on it: what a run folder holds must serve the resumed
+/// run.
+/// @throws Error(scene_error) where the text would be longer than what is read, or would be read as another scene
+std::string write_readable_scene(const SceneConfig& scene);
+
 }  // namespace skein
