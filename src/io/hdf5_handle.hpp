@@ -4,6 +4,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace skein {
 
@@ -50,6 +51,9 @@ class QuietHdf5 {
 
 /// What HDF5 itself says about the call that just failed: its innermost message.
 std::string hdf5_reason();
+
+/// Extents of an array; empty for a single number.
+using Shape = std::vector<hsize_t>;
 
 /// How a number is stored. Files are little-endian whatever the machine.
 enum class Number { float32, float64, int32, int64 };

@@ -9,8 +9,6 @@
 
 namespace skein {
 
-using Shape = std::vector<hsize_t>;
-
 /// An HDF5 file built in memory and put on disk whole by commit(): the disk is touched in one place only, whose errors
 /// name the bytes, and HDF5's file locks, which some file systems refuse, are never taken.
 ///

@@ -7,6 +7,7 @@
 
 #include "hdf5_reader.hpp"
 #include "segment_check.hpp"
+#include "segment_list.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,7 @@ class RunChecker {
 
   RunCheck check() {
     read_index();
-    for (std::int64_t number = 0; number < listed_; ++number)
+    for (std::int64_t number = 0; number < listed_.size(); ++number)
       if (!check_segment(number)) break;
     compare_with_index();
     check_unlisted_segments();
@@ -68,7 +69,7 @@ class RunChecker {
   TrajectoryLayout layout_;
   Series frames_, records_;
   RunCheck check_;
-  std::int64_t listed_ = 0;
+  SegmentList listed_;  // by the index
   std::string listed_checksum_;
   std::map<std::int64_t, TrajectoryEnd> ends_;  // after so many segments
   std::vector<double> record_times_{0.0};       // at index k: after k accepted steps
@@ -78,9 +79,9 @@ class RunChecker {
 void RunChecker::read_index() {
   try {
     const Hdf5Reader index(folder_.index());
-    listed_ = static_cast<std::int64_t>(index.read_integers("/parameters/segments/frames").size());
+    listed_ = read_segment_list(index);
     check_.status = index.text_attribute("/parameters", "status");
-    if (listed_ > 0) listed_checksum_ = index.text_attribute("/parameters/segments", "xxh3");
+    if (listed_.size() > 0) listed_checksum_ = index.text_attribute("/parameters/segments", "xxh3");
   } catch (const Error& error) {
     check_.problems.push_back(error.what());
   }
@@ -103,6 +104,11 @@ bool RunChecker::check_segment(const std::int64_t number) {
   if (segment.checksum != moments.checksum)
     report("'{}' was changed: its contents have the xxh3 {}, its label says {}", name, moments.checksum,
            segment.checksum);
+  if (listed_.frames[number] != segment.n_frames || listed_.steps[number] != segment.n_records)
+    report("'{}' holds {} frames and {} steps, and the index lists {} and {}", name, segment.n_frames,
+           segment.n_records, listed_.frames[number], listed_.steps[number]);
+  if (segment.n_frames > 0 && listed_.last_time[number] != segment.last_time)
+    report("'{}' ends at t = {}, and the index says {}", name, segment.last_time, listed_.last_time[number]);
   if (segment.first_frame != check_.frames)
     report("'{}' begins with frame {}, and frame {} comes next", name, segment.first_frame, check_.frames);
   if (segment.first_record != check_.records)
@@ -117,11 +123,11 @@ bool RunChecker::check_segment(const std::int64_t number) {
 
 void RunChecker::check_records(const SegmentMoments& moments) {
   const std::string name = segment_name(moments.label.segment.number);
-  for (std::size_t i = 0; i < moments.record_times.size(); ++i) {
+  for (std::size_t i = 0; i < moments.label.records.time.size(); ++i) {
     ++check_.records;
-    const double before = record_times_.back(), time = moments.record_times[i], dt = moments.record_dt.at(i);
-    if (moments.record_steps[i] != check_.records)
-      report("'{}': step {} is recorded where step {} should be", name, moments.record_steps[i], check_.records);
+    const double before = record_times_.back(), time = moments.label.records.time[i], dt = moments.record_dt[i];
+    if (moments.label.records.step[i] != check_.records)
+      report("'{}': step {} is recorded where step {} should be", name, moments.label.records.step[i], check_.records);
     const bool is_sum = time == before + dt || dt == time - before;  // the latter where an end cut it
     if (!is_sum || !(dt > 0.0))
       report("'{}': step {} ends at t = {}, which is not {} + its dt {}", name, check_.records, time, before, dt);
@@ -130,8 +136,9 @@ void RunChecker::check_records(const SegmentMoments& moments) {
 }
 
 void RunChecker::check_frames(const SegmentMoments& moments) {
-  for (std::size_t i = 0; i < moments.label.frame_times.size(); ++i)
-    check_frame(segment_name(moments.label.segment.number), moments.label.frame_times[i], moments.frame_steps[i]);
+  const Moments& frames = moments.label.frames;
+  for (std::size_t i = 0; i < frames.time.size(); ++i)
+    check_frame(segment_name(moments.label.segment.number), frames.time[i], frames.step[i]);
 }
 
 void RunChecker::check_frame(const std::string& name, const double time, const std::int64_t step) {
@@ -151,20 +158,21 @@ void RunChecker::check_frame(const std::string& name, const double time, const s
 }
 
 void RunChecker::compare_with_index() {
-  if (check_.segments < listed_) return;  // said already
-  if (listed_ > 0 && listed_checksum_ != check_.checksum)
+  if (check_.segments < listed_.size()) return;  // said already
+  if (listed_.size() > 0 && listed_checksum_ != check_.checksum)
     report("the index says that the chain ends with {}, the segments say {}", listed_checksum_, check_.checksum);
   if (check_.status == "done" && (last_frame_time_ != scene_.time.end || record_times_.back() != scene_.time.end))
     report(
         "the run says that it is done, but its last frame is at t = {}, its last step at {}, and the scene ends at {}",
         last_frame_time_, record_times_.back(), scene_.time.end);
   if (check_.status == "running")
-    check_.notes.push_back("the run says that it is running: if it is not, it was killed, and 'skein resume' goes on");
+    check_.notes.emplace_back(
+        "the run says that it is running: if it is not, it was killed, and 'skein resume' goes on");
 }
 
 void RunChecker::check_unlisted_segments() {
   std::set<std::string> listed;
-  for (std::int64_t number = 0; number < listed_; ++number) listed.insert(segment_name(number));
+  for (std::int64_t number = 0; number < listed_.size(); ++number) listed.insert(segment_name(number));
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder_.segments(), ignored)) {
     const std::string name = "segments/" + entry.path().filename().string();

@@ -2,13 +2,23 @@
 
 #include <skein/io/atomic_file.hpp>
 
-#include "hdf5_reader.hpp"
+#include "moments.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
 
 namespace skein {
+namespace {
+
+std::string read_checksum(const Hdf5Reader& file, const std::string& name) {
+  const std::string text = file.text_attribute("/", name);
+  if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
+    file.reject("/@" + name, "it is not 16 hexadecimal digits");
+  return text;
+}
+
+}  // namespace
 
 std::string segment_name(const std::int64_t number) { return fmt::format("segments/{:06}.h5", number); }
 
@@ -37,24 +47,22 @@ std::uint64_t write_segment(const RunFolder& folder, const Series& frames, const
 }
 
 SegmentLabel read_segment_label(const RunFolder& folder, const std::int64_t number, const bool check_seal) {
-  const Hdf5Reader file(folder.path() / segment_name(number), check_seal);
+  return read_segment_label(Hdf5Reader(folder.path() / segment_name(number), check_seal));
+}
+
+SegmentLabel read_segment_label(const Hdf5Reader& file) {
   SegmentLabel label;
   label.segment.number = file.integer_attribute("/", "number");
   label.segment.first_frame = file.integer_attribute("/", "first_frame");
   label.segment.first_record = file.integer_attribute("/", "first_record");
-  label.segment.checksum = file.text_attribute("/", "xxh3");
-  label.previous_checksum = file.text_attribute("/", "previous_xxh3");
-  label.frame_times = file.read_reals("/particles/fibers/position/time");
-  const auto frame_steps = file.read_integers("/particles/fibers/position/step");
-  const auto record_times = file.read_reals("/observables/energy/time");
-  const auto record_steps = file.read_integers("/observables/energy/step");
-  label.segment.n_frames = static_cast<std::int64_t>(label.frame_times.size());
-  label.segment.n_records = static_cast<std::int64_t>(record_times.size());
+  label.segment.checksum = read_checksum(file, "xxh3");
+  label.previous_checksum = read_checksum(file, "previous_xxh3");
+  label.frames = read_moments(file, "/particles/fibers/position");
+  label.records = read_moments(file, "/observables/energy");
+  label.segment.n_frames = static_cast<std::int64_t>(label.frames.n_rows());
+  label.segment.n_records = static_cast<std::int64_t>(label.records.n_rows());
   label.segment.last_time =
-      label.frame_times.empty() ? std::numeric_limits<double>::quiet_NaN() : label.frame_times.back();
-  if (!frame_steps.empty()) label.last_frame_step = frame_steps.back();
-  if (!record_steps.empty()) label.last_record_step = record_steps.back();
-  if (!record_times.empty()) label.last_record_time = record_times.back();
+      label.frames.time.empty() ? std::numeric_limits<double>::quiet_NaN() : label.frames.time.back();
   return label;
 }
 

@@ -2,6 +2,7 @@
 
 #include <skein/io/run_folder.hpp>
 
+#include "moments.hpp"
 #include "series.hpp"
 
 #include <cstdint>
@@ -37,18 +38,17 @@ std::string segment_name(std::int64_t number);
 std::uint64_t write_segment(const RunFolder& folder, const Series& frames, const Series& records,
                             const std::string& previous_checksum, Segment& segment);
 
-/// What a segment says of itself, and the moments of its frames.
+/// What a segment says of itself.
 struct SegmentLabel {
   Segment segment;  ///< last_time: of its own frames, NaN without one
   std::string previous_checksum;
-  std::vector<double> frame_times;
-  std::int64_t last_frame_step = 0, last_record_step = 0;
-  double last_record_time = 0.0;
+  Moments frames, records;
 };
 
 /// @throws Error(damaged_data) naming the file and what cannot be read
 /// @param check_seal  see Hdf5Reader
 SegmentLabel read_segment_label(const RunFolder& folder, std::int64_t number, bool check_seal);
+SegmentLabel read_segment_label(const Hdf5Reader& file);
 
 /// xxh3 of a whole file, 16 hexadecimal digits: where the chain begins.
 std::string checksum_of_file(const std::filesystem::path& path);

@@ -15,8 +15,7 @@ namespace skein {
 struct SegmentMoments {
   SegmentLabel label;
   std::string checksum;  ///< computed anew from the arrays; equals label.segment.checksum where nothing was changed
-  std::vector<std::int64_t> frame_steps, record_steps;
-  std::vector<double> record_times, record_dt;
+  std::vector<double> record_dt;
 };
 
 /// Reads a segment wholly. @param frames, records  say which arrays belong to it

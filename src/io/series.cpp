@@ -50,6 +50,12 @@ std::span<const double> as_doubles(const std::vector<Vec3>& vectors) {
 
 }  // namespace
 
+Shape Series::Element::shape(const hsize_t n_rows) const {
+  Shape shape = {n_rows};
+  shape.insert(shape.end(), row_shape.begin(), row_shape.end());
+  return shape;
+}
+
 void Series::append(const std::int64_t step, const double time, const std::vector<std::span<const double>>& rows) {
   SKEIN_REQUIRE(rows.size() == elements_.size(), fmt::format("{}: one row for each element", name_));
   for (std::size_t e = 0; e < rows.size(); ++e)
@@ -111,18 +117,13 @@ void Series::write(Hdf5Writer& file) const {
   const Shape moments = {n_rows()};
   file.write(elements_[0].group + "/step", Number::int64, moments, step_.data());
   file.write(elements_[0].group + "/time", Number::float64, moments, time_.data(), "time");
-  for (const Element& element : elements_) {
-    Shape shape = moments;
-    shape.insert(shape.end(), element.row_shape.begin(), element.row_shape.end());
-    file.write(element.group + "/value", element.number, shape, element.values.data(), element.unit);
-  }
+  for (const Element& element : elements_)
+    file.write(element.group + "/value", element.number, element.shape(n_rows()), element.values.data(), element.unit);
   link_moments(file, elements_);
 }
 
 void Series::write_row_views(Hdf5Writer& file, const std::string& group) const {
-  Shape shape = {n_rows()};
-  shape.insert(shape.end(), elements_[0].row_shape.begin(), elements_[0].row_shape.end());
-  file.write_row_views(group, elements_[0].group + "/value", elements_[0].number, shape);
+  file.write_row_views(group, elements_[0].group + "/value", elements_[0].number, elements_[0].shape(n_rows()));
 }
 
 void Series::write_virtual(Hdf5Writer& file, const std::vector<Hdf5Writer::Source>& sources) const {

@@ -24,6 +24,8 @@ class Series {
     Shape row_shape;
     std::string unit;
     std::vector<std::byte> values = {};  ///< [n_rows, row_shape], as stored
+
+    Shape shape(hsize_t n_rows) const;  ///< of so many rows
   };
 
   Series(const char* name, std::vector<Element> elements) : name_(name), elements_(std::move(elements)) {}

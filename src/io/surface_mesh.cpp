@@ -40,4 +40,13 @@ std::vector<Quad> make_surface_mesh(const std::vector<Fiber>& fibers) {
   return quads;
 }
 
+std::size_t count_surface_quads(const std::vector<Fiber>& fibers) {
+  std::size_t n_quads = 0;
+  for (const Fiber& fiber : fibers) {
+    const auto n = static_cast<std::size_t>(fiber.config.nodes_per_section);
+    n_quads += (static_cast<std::size_t>(fiber.config.sections) - 1) * n + 2 * ((n - 1) / 2);
+  }
+  return n_quads;
+}
+
 }  // namespace skein

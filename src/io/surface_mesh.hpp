@@ -14,4 +14,7 @@ namespace skein {
 /// @returns [n_quads]
 std::vector<std::array<std::int32_t, 4>> make_surface_mesh(const std::vector<Fiber>& fibers);
 
+/// Of that mesh.
+std::size_t count_surface_quads(const std::vector<Fiber>& fibers);
+
 }  // namespace skein

@@ -2,6 +2,7 @@
 
 #include <skein/core/version.hpp>
 
+#include "segment_list.hpp"
 #include "surface_mesh.hpp"
 
 #include <pwd.h>
@@ -27,10 +28,8 @@ void write_h5md_group(Hdf5Writer& file) {
 
 void write_connectivity(Hdf5Writer& file, const TrajectoryLayout& layout) {
   const auto surface = make_surface_mesh(layout.fibers);
-  file.write("/connectivity/springs", Number::int32, {layout.springs.size(), 2}, layout.springs.data());
   file.write("/connectivity/surface", Number::int32, {surface.size(), 4}, surface.data());
-  for (const char* name : {"/connectivity/springs", "/connectivity/surface"})
-    file.set_reference(name, "particles_group", "/particles/fibers");
+  file.set_reference("/connectivity/surface", "particles_group", "/particles/fibers");
 }
 
 void write_fibers(Hdf5Writer& file, const TrajectoryLayout& layout) {
@@ -72,20 +71,6 @@ void write_parameters(Hdf5Writer& file, const TrajectoryLayout& layout, const st
       file.write("/parameters/" + name, Number::float64, {list.size()}, list.data(), quantity.unit);
     }
   }
-}
-
-void write_segment_list(Hdf5Writer& file, const std::vector<Segment>& segments) {
-  std::vector<std::int64_t> frames, records;
-  std::vector<double> last_time;
-  for (const Segment& segment : segments) {
-    frames.push_back(segment.n_frames);
-    records.push_back(segment.n_records);
-    last_time.push_back(segment.last_time);
-  }
-  file.write("/parameters/segments/frames", Number::int64, {frames.size()}, frames.data());
-  file.write("/parameters/segments/steps", Number::int64, {records.size()}, records.data());
-  file.write("/parameters/segments/last_time", Number::float64, {last_time.size()}, last_time.data(), "time");
-  if (!segments.empty()) file.set_attribute("/parameters/segments", "xxh3", segments.back().checksum);
 }
 
 }  // namespace

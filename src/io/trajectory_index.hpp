@@ -15,13 +15,14 @@ namespace skein {
 /// Writes trajectory.h5, the H5MD 1.1 root of a run, in place of the one before:
 ///
 ///   /h5md, /particles/fibers, /observables   frames and step records: virtual datasets over all segments
-///   /connectivity/springs                    [n_springs, 2], nodes
 ///   /connectivity/surface                    [n_quads, 4], nodes, see surface_mesh.hpp
 ///   /parameters                              attributes: the layout's, and status
 ///     fiber_sections, fiber_nodes_per_section, fiber_radius, first_node, first_section    [n_fibers]
 ///     blob, node_fiber, node_section         [n_nodes]
 ///     segments/{frames, steps, last_time}    [n_segments]; attribute xxh3: end of the chain so far
 ///     and the layout's parameters
+///
+/// Springs are not listed: there are hundreds for each node, and the scene says which (docs/model.md).
 ///
 /// @returns the bytes written
 std::uint64_t write_trajectory_index(const RunFolder& folder, const TrajectoryLayout& layout, const Series& frames,

@@ -2,54 +2,106 @@
 #include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_reader.hpp>
 
-#include "hdf5_reader.hpp"
+#include "moments.hpp"
 #include "segment.hpp"
+#include "series.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
 
 namespace skein {
 namespace {
 
-std::vector<Vec3> take_vectors(const std::vector<double>& values, const std::size_t row, const std::size_t n) {
-  std::vector<Vec3> vectors(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double* value = &values[3 * (row * n + i)];
-    vectors[i] = {value[0], value[1], value[2]};
-  }
+/// All frames of one segment.
+struct SegmentFrames {
+  Moments moments;
+  std::vector<double> position, centreline, curvature;  ///< [n_frames, ...], as in a file
+
+  Frame frame(std::size_t row) const;
+};
+
+std::vector<double> take_row(const std::vector<double>& values, const std::size_t row, const std::size_t n_rows) {
+  const std::size_t n = values.size() / n_rows;
+  const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * n);
+  return {first, first + static_cast<std::ptrdiff_t>(n)};
+}
+
+std::vector<Vec3> as_vectors(const std::vector<double>& values) {
+  std::vector<Vec3> vectors(values.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return vectors;
+}
+
+Frame SegmentFrames::frame(const std::size_t row) const {
+  const std::size_t n_rows = moments.n_rows();
+  return {moments.step[row], moments.time[row], as_vectors(take_row(position, row, n_rows)),
+          as_vectors(take_row(centreline, row, n_rows)), take_row(curvature, row, n_rows)};
+}
+
+Moments read_frame_moments(const Hdf5Reader& file, const std::int64_t n_frames) {
+  Moments moments = read_moments(file, "/particles/fibers/position");
+  if (moments.n_rows() != static_cast<hsize_t>(n_frames))
+    file.reject("/particles/fibers/position/time",
+                fmt::format("it holds {} frames, and the run's index lists {}", moments.n_rows(), n_frames));
+  return moments;
+}
+
+SegmentFrames read_frames(const Hdf5Reader& file, const Series& series, const std::int64_t n_frames) {
+  SegmentFrames frames;
+  frames.moments = read_frame_moments(file, n_frames);
+  std::vector<double>* targets[] = {&frames.position, &frames.centreline, &frames.curvature};
+  for (std::size_t e = 0; e < series.elements().size(); ++e) {
+    const Series::Element& element = series.elements()[e];
+    *targets[e] = file.read_reals(element.group + "/value", element.shape(frames.moments.n_rows()));
+  }
+  return frames;
 }
 
 }  // namespace
 
-TrajectoryReader::TrajectoryReader(const RunFolder& folder) : folder_(folder) {
-  const RunSummary summary = read_run_summary(folder.path());
-  n_segments_ = summary.segments;
-  n_frames_ = summary.frames;
+TrajectoryReader::TrajectoryReader(const RunFolder& folder, const SceneConfig& scene)
+    : folder_(folder), output_(scene.output), first_frames_{0} {
+  layout_.fibers = make_fibers(scene.fibers);
+  for (const std::int64_t n_frames : read_run_summary(folder.path()).segment_frames)
+    first_frames_.push_back(first_frames_.back() + n_frames);
 }
 
 void TrajectoryReader::for_each_frame(const std::function<void(const Frame&)>& visit) const {
-  for (std::int64_t number = 0; number < n_segments_; ++number) {
-    const auto path = folder_.path() / segment_name(number);
-    const Hdf5Reader file(path);
-    const auto time = file.read_reals("/particles/fibers/position/time");
-    const auto step = file.read_integers("/particles/fibers/position/step");
-    const auto position = file.read_reals("/particles/fibers/position/value");
-    const auto centreline = file.read_reals("/observables/centreline/value");
-    const auto curvature = file.read_reals("/observables/curvature/value");
-    if (time.empty()) continue;
-    const std::size_t n_nodes = position.size() / time.size() / 3, n_sections = curvature.size() / time.size();
-    if (step.size() != time.size() || position.size() != 3 * n_nodes * time.size() ||
-        curvature.size() != n_sections * time.size() || centreline.size() != 3 * curvature.size())
-      throw Error(ExitCode::damaged_data, fmt::format("the frames in '{}' are damaged.", path.string()));
-    for (std::size_t i = 0; i < time.size(); ++i) {
-      const auto first = curvature.begin() + static_cast<std::ptrdiff_t>(i * n_sections);
-      visit({step[i],
-             time[i],
-             take_vectors(position, i, n_nodes),
-             take_vectors(centreline, i, n_sections),
-             {first, first + static_cast<std::ptrdiff_t>(n_sections)}});
+  const Series series = make_frame_series(layout_, output_);
+  double last_time = -std::numeric_limits<double>::infinity();
+  for (std::size_t number = 0; number + 1 < first_frames_.size(); ++number) {
+    const Hdf5Reader file(folder_.path() / segment_name(static_cast<std::int64_t>(number)));
+    const SegmentFrames frames = read_frames(file, series, first_frames_[number + 1] - first_frames_[number]);
+    for (std::size_t row = 0; row < frames.moments.n_rows(); ++row) {
+      const double time = frames.moments.time[row];
+      if (!(time > last_time))
+        file.reject("/particles/fibers/position/time",
+                    fmt::format("its frame at {} comes after one at {}", time, last_time));
+      last_time = time;
+      visit(frames.frame(row));
     }
   }
+}
+
+Frame TrajectoryReader::read_frame(const std::int64_t number) const {
+  SKEIN_REQUIRE(number >= 0 && number < n_frames(), fmt::format("frame {} of {}", number, n_frames()));
+  const auto after = std::upper_bound(first_frames_.begin(), first_frames_.end(), number);
+  const std::int64_t first = *(after - 1), segment = after - 1 - first_frames_.begin();
+  const Hdf5Reader file(folder_.path() / segment_name(segment));
+  const SegmentFrames frames = read_frames(file, make_frame_series(layout_, output_), *after - first);
+  return frames.frame(static_cast<std::size_t>(number - first));
+}
+
+std::vector<double> TrajectoryReader::read_times() const {
+  std::vector<double> times;
+  for (std::size_t number = 0; number + 1 < first_frames_.size(); ++number) {
+    const Hdf5Reader file(folder_.path() / segment_name(static_cast<std::int64_t>(number)));
+    const Moments moments = read_frame_moments(file, first_frames_[number + 1] - first_frames_[number]);
+    times.insert(times.end(), moments.time.begin(), moments.time.end());
+  }
+  return times;
 }
 
 }  // namespace skein

@@ -75,11 +75,11 @@ void TrajectoryWriter::Parts::take_over(const TrajectoryEnd& end) {
     SegmentLabel label = read_segment_label(folder, number, false);
     if (label.segment.n_frames > 0) {
       last_time = label.segment.last_time;
-      frames.set_last_moment(label.last_frame_step, last_time);
+      frames.set_last_moment(label.frames.step.back(), last_time);
     }
-    if (label.segment.n_records > 0) records.set_last_moment(label.last_record_step, label.last_record_time);
+    if (label.segment.n_records > 0) records.set_last_moment(label.records.step.back(), label.records.time.back());
     label.segment.last_time = last_time;
-    xdmf.add_frames(label.segment, label.frame_times);
+    xdmf.add_frames(label.segment, label.frames.time);
     checksum = label.segment.checksum;
     segments.push_back(std::move(label.segment));
   }
@@ -92,7 +92,7 @@ void TrajectoryWriter::Parts::save() {
   write_segment_file();
   if (index_is_old) {
     bytes += write_trajectory_index(folder, layout, frames, records, segments, status);
-    bytes += xdmf.write(folder);
+    if (status != "running" || xdmf.has_grown()) bytes += xdmf.write(folder);
     index_is_old = false;
   }
   failed = false;

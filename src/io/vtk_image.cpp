@@ -30,7 +30,8 @@ std::string describe_arrays(const std::vector<ImageField>& fields) {
 Vec3 ImageGrid::point(const std::int64_t index) const {
   const std::int64_t i = index % n_points[0], j = index / n_points[0] % n_points[1],
                      k = index / n_points[0] / n_points[1];
-  return origin + spacing * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+  return origin + Vec3{spacing.x * static_cast<double>(i), spacing.y * static_cast<double>(j),
+                       spacing.z * static_cast<double>(k)};
 }
 
 void write_vtk_image(const std::filesystem::path& path, const ImageGrid& grid, const double time,
@@ -42,13 +43,14 @@ void write_vtk_image(const std::filesystem::path& path, const ImageGrid& grid, c
   file.write(fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"{0}\" header_type=\"UInt64\">\n"
-      "  <ImageData WholeExtent=\"{1}\" Origin=\"{2} {3} {4}\" Spacing=\"{5} {5} {5}\">\n"
+      "  <ImageData WholeExtent=\"{1}\" Origin=\"{2} {3} {4}\" Spacing=\"{5} {6} {7}\">\n"
       "    <FieldData>\n"
-      "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{6}</DataArray>\n"
+      "      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">{8}</DataArray>\n"
       "    </FieldData>\n"
       "    <Piece Extent=\"{1}\">\n"
-      "      <PointData Vectors=\"{7}\">\n",
-      byte_order, extent, grid.origin.x, grid.origin.y, grid.origin.z, grid.spacing, time, fields.front().name));
+      "      <PointData Vectors=\"{9}\">\n",
+      byte_order, extent, grid.origin.x, grid.origin.y, grid.origin.z, grid.spacing.x, grid.spacing.y, grid.spacing.z,
+      time, fields.front().name));
   file.write(describe_arrays(fields));
   file.write("      </PointData>\n    </Piece>\n  </ImageData>\n  <AppendedData encoding=\"raw\">\n_");
   for (const ImageField& field : fields) {

@@ -23,13 +23,21 @@ class XdmfText {
 
   void add_frames(const Segment& segment, const std::vector<double>& times);
 
-  /// In place of the one before; nothing while there is no frame, since readers refuse an empty collection.
-  /// @returns the bytes written
-  std::uint64_t write(const RunFolder& folder) const;
+  /// One frame's part of the text.
+  std::string describe_frame(std::int64_t segment, std::size_t row, double time) const;
+
+  /// True where so much was added since the file was written that it pays to write it again. While a run goes on the
+  /// file may thus lack up to a ninth of the frames on disk.
+  bool has_grown() const;
+
+  /// In place of the one before; nothing where no frame was added, and none while there is no frame, since readers
+  /// refuse an empty collection. @returns the bytes written
+  std::uint64_t write(const RunFolder& folder);
 
  private:
   std::string mesh_;  // what every frame says alike
   std::string frames_;
+  std::size_t n_written_ = 0;  // bytes of frames_ that the file has
   int n_nodes_;
   int float_bytes_;
 };

@@ -99,12 +99,7 @@ RunAnalysis analyze_run(const RunFolder& folder, const bool with_forces) {
   for (const Fiber& fiber : analysis.fibers) analysis.histories.emplace_back(fiber, physics.time_scale());
   ForceProbe probe(physics);
   if (with_forces) analysis.forces.resize(analysis.fibers.size());
-  const auto n_nodes = static_cast<std::size_t>(count_nodes(analysis.fibers));
-  const auto n_sections = static_cast<std::size_t>(count_sections(analysis.fibers));
-  TrajectoryReader(folder).for_each_frame([&](const Frame& frame) {
-    if (frame.position.size() != n_nodes || frame.centreline.size() != n_sections)
-      throw Error(ExitCode::damaged_data,
-                  fmt::format("the frames in '{}' do not fit its scene.toml.", folder.path().string()));
+  TrajectoryReader(folder, analysis.scene).for_each_frame([&](const Frame& frame) {
     analysis.time.push_back(frame.time);
     analysis.smallest_gap.push_back(
         physics.sections.compute_smallest_gap(to_device("skein::analyze_run::position", frame.position)));

@@ -5,7 +5,6 @@
 #include <skein/core/error.hpp>
 #include <skein/core/version.hpp>
 #include <skein/fibers/calibration.hpp>
-#include <skein/fibers/spring_network.hpp>
 #include <skein/physics/flow_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
@@ -55,7 +54,6 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
   TrajectoryLayout layout;
   layout.fibers = fibers;
   layout.blobs = make_blobs(fibers);
-  for (const auto& [a, b] : make_spring_list(fibers)) layout.springs.push_back({a, b});
   layout.attributes = {{"title", scene.title},      {"scene", scene_text},
                        {"version", version()},      {"commit", commit()},
                        {"build", describe_build()}, {"backend", describe_backend()},

@@ -34,8 +34,8 @@ def check_h5md(index):
     check(box["dimension"] == 3 and list(box["boundary"]) == ["none"] * 3, "the box is not an open one")
     check(index["parameters"].attrs["status"] in ("running", "done", "stopped", "failed"), "the status is unknown")
     check(index["parameters"].attrs["scene"], "/parameters has no scene")
-    springs = index["connectivity/springs"]
-    check(index[springs.attrs["particles_group"]] == index["particles/fibers"], "springs belong to no particles")
+    surface = index["connectivity/surface"]
+    check(index[surface.attrs["particles_group"]] == index["particles/fibers"], "the surface belongs to no particles")
 
 
 def check_units(index):
@@ -66,9 +66,6 @@ def check_index(index):
     sections, per_section = parameters["fiber_sections"][...], parameters["fiber_nodes_per_section"][...]
     n_fibers, n_nodes, n_sections = len(sections), int((sections * per_section).sum()), int(sections.sum())
     check(parameters["blob"].shape == (n_nodes,), "/parameters/blob does not have one number for each node")
-    springs = index["connectivity/springs"][...]
-    check(springs.ndim == 2 and springs.shape[1] == 2 and springs.size == 0 or
-          (springs.min() >= 0 and springs.max() < n_nodes), "a spring ends at no node")
 
     position = index["particles/fibers/position"]
     n_frames = position["time"].shape[0]

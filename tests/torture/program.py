@@ -89,7 +89,7 @@ class Program:
             command += ["--set", override]
         return command
 
-    def call(self, command, timeout=120, threads=1, **variables):
+    def call(self, command, timeout=120, threads=1, preexec_fn=None, **variables):
         return subprocess.run(
             [str(word) for word in command],
             env=self.environment(threads, **variables),
@@ -98,6 +98,7 @@ class Program:
             text=True,
             errors="replace",
             timeout=timeout,
+            preexec_fn=preexec_fn,
         )
 
     def start(self, command, threads=1, **variables):

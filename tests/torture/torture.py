@@ -19,17 +19,18 @@ PROMISES = {
     "stops": "signals, files, walltime",
     "write_errors": "disk full, write errors",
     "damaged_checkpoints": "damaged checkpoints",
+    "crafted_files": "crafted HDF5 files",
     "bad_scenes": "bad scenes",
     "faults": "not a number",
     "readers": "read while it writes",
 }
 COUNTS = {
-    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, scenes=60, faults=4,
-                  readings=20),
-    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, scenes=2000, faults=50,
-                  readings=200),
-    "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000, scenes=20000,
-                     faults=500, readings=2000),
+    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, crafted_files=40, scenes=60,
+                  faults=4, readings=20),
+    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, crafted_files=370,
+                  scenes=2000, faults=50, readings=200),
+    "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000,
+                     crafted_files=1500, scenes=20000, faults=500, readings=2000),
 }
 
 

@@ -27,7 +27,6 @@ inline TrajectoryLayout make_synthetic_layout() {
   TrajectoryLayout layout;
   layout.fibers = make_fibers({first, second});
   layout.blobs = make_blobs(layout.fibers);
-  layout.springs = {{0, 1}, {1, 2}, {0, 6}, {42, 43}, {42, 51}};
   layout.attributes = {
       {"title", "two synthetic tubes"}, {"scene", "title = \"two synthetic tubes\"\n"}, {"version", "1.2.3"}};
   layout.parameters = {{"shear_rate", {2.5, "1/time"}},

@@ -5,6 +5,7 @@ import os
 import h5py
 import numpy as np
 
+from plain_hdf5 import NotPlain, check_file
 from run_reader import Nothing
 
 REGIMES = ["tumble", "C", "S", "snake", "coil", "three-dimensional"]
@@ -17,7 +18,8 @@ def open_diagnostics(run):
         raise Nothing(f"there is no {path}: run 'skein analyze' first")
     try:
         file = h5py.File(path, "r")
-    except OSError:
+        check_file(file)
+    except (OSError, RuntimeError, NotPlain):
         raise Nothing(f"{path} cannot be read: run 'skein analyze' again") from None
     if not np.array_equal(file["time"][()], run.frame_times):
         raise Nothing(f"{path} is not of these frames: run 'skein analyze' again")

@@ -9,6 +9,8 @@ os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py
 import numpy as np
 
+from plain_hdf5 import NotPlain, check_sources, find_dataset
+
 DAMAGED, MISSING, CANNOT_CREATE, IO_ERROR = 65, 66, 73, 74
 
 
@@ -38,15 +40,16 @@ class Run:
             self.file = h5py.File(self.path, "r")
         except OSError as error:
             raise PlotError(DAMAGED, f"{self.path} cannot be read: {error}") from None
-        self._check_segments()
+        self.checked = {}  # arrays that were found as they should be
 
         self.frame_times = self._times("centreline")
         self.step_times = self._times("end_to_end")
-        self.sections = self.parameter("fiber_sections").astype(int)
-        self.first_section = self.parameter("first_section").astype(int)
+        self.sections = self._whole_numbers("fiber_sections")
+        self.first_section = self._whole_numbers("first_section")
         self.radius = self.parameter("fiber_radius").astype(float)
         if len(self.frame_times) == 0:
             raise PlotError(DAMAGED, f"{self.path} holds no frame")
+        self._check_fibers()
         if self.dataset("/observables/centreline/value").shape[1:] != (self.n_sections, 3):
             raise PlotError(DAMAGED, f"{self.path}: /observables/centreline does not fit /parameters/fiber_sections")
 
@@ -71,13 +74,22 @@ class Run:
 
     def attribute(self, name):
         value = self.file["/parameters"].attrs.get(name, "")
-        return value.decode(errors="replace") if isinstance(value, bytes) else str(value)
+        if not isinstance(value, (str, bytes)):
+            raise PlotError(DAMAGED, f"{self.path}: {name} of /parameters is no single text")
+        return value.decode(errors="replace") if isinstance(value, bytes) else value
 
     def dataset(self, name):
-        try:
-            return self.file[name]
-        except KeyError:
-            raise PlotError(DAMAGED, f"{self.path} lacks {name}") from None
+        if name not in self.checked:
+            try:
+                found = find_dataset(self.file, name)
+                if found.is_virtual:
+                    check_sources(found, name, self.folder)
+            except NotPlain as error:
+                raise PlotError(DAMAGED, f"{self.path}: {error}") from None
+            except (OSError, RuntimeError) as error:
+                raise PlotError(DAMAGED, f"{self.path}: a part of {name} is missing or damaged: {error}") from None
+            self.checked[name] = found
+        return self.checked[name]
 
     def parameter(self, name):
         return self.dataset(f"/parameters/{name}")[()]
@@ -99,19 +111,18 @@ class Run:
 
     def _times(self, name):
         times = self.dataset(f"/observables/{name}/time")[()]
-        return times[np.isfinite(times)]
+        if times.ndim != 1 or not np.isfinite(times).all() or not (np.diff(times) > 0).all():
+            raise PlotError(DAMAGED, f"{self.path}: the times in /observables/{name} do not grow")
+        return times
 
-    # HDF5 quietly returns fill values for segments that are lost or damaged.
-    def _check_segments(self):
-        position = self.dataset("/observables/centreline/value")
-        steps = self.dataset("/observables/end_to_end/value")
-        names = {source.file_name for d in (position, steps) if d.is_virtual for source in d.virtual_sources()}
-        for name in sorted(names - {"."}):
-            path = os.path.join(self.folder, name)
-            try:
-                h5py.File(path, "r").close()
-            except OSError:
-                raise PlotError(DAMAGED, f"{path}, a part of this trajectory, is missing or damaged") from None
+    def _whole_numbers(self, name):
+        return np.atleast_1d(self.parameter(name)).astype(int)
+
+    def _check_fibers(self):
+        sound = self.sections.ndim == 1 and (self.sections > 0).all() and self.radius.shape == self.sections.shape
+        starts = np.concatenate(([0], np.cumsum(self.sections)[:-1]))
+        if not sound or not np.array_equal(starts, self.first_section) or not (self.radius > 0).all():
+            raise PlotError(DAMAGED, f"{self.path}: the fibers in /parameters do not fit each other")
 
 
 def write_error(path, error):

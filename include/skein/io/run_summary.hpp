@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace skein {
 
@@ -13,7 +14,8 @@ struct RunSummary {
   std::int64_t frames = 0;
   std::int64_t steps = 0;  ///< recorded, accepted ones
   std::int64_t segments = 0;
-  double last_time = 0.0;  ///< of the last frame; NaN where there is none
+  std::vector<std::int64_t> segment_frames;  ///< [segments], frames of each
+  double last_time = 0.0;                    ///< of the last frame; NaN where there is none
 };
 
 /// @throws Error(missing_input) if there is no run folder, Error(damaged_data) naming the file that is unreadable or

@@ -3,7 +3,6 @@
 #include <skein/core/vec3.hpp>
 #include <skein/fibers/fiber.hpp>
 
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -52,10 +51,9 @@ struct Quantity {
 /// What does not change during a run: the shape of all arrays, and what a reader needs to make sense of them.
 struct TrajectoryLayout {
   std::vector<Fiber> fibers;
-  std::vector<double> blobs;                         ///< [n_nodes], length
-  std::vector<std::array<std::int32_t, 2>> springs;  ///< [n_springs], nodes
-  std::map<std::string, std::string> attributes;     ///< of /parameters: "title", "scene", "version", "build", ...
-  std::map<std::string, Quantity> parameters;        ///< datasets of /parameters: "bending_rigidity", ...
+  std::vector<double> blobs;                      ///< [n_nodes], length
+  std::map<std::string, std::string> attributes;  ///< of /parameters: "title", "scene", "version", "build", ...
+  std::map<std::string, Quantity> parameters;     ///< datasets of /parameters: "bending_rigidity", ...
 };
 
 }  // namespace skein

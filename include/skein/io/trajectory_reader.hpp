@@ -2,28 +2,40 @@
 
 #include <skein/io/run_folder.hpp>
 #include <skein/io/trajectory.hpp>
+#include <skein/scene/scene_config.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace skein {
 
 /// The frames of a run as they were saved, one closed segment at a time: also of a run that is on its way.
 ///
-/// @throws Error(missing_input) if there is no run folder, Error(damaged_data) naming the file that is unreadable
+/// @throws Error(missing_input) if there is no run folder, Error(damaged_data) naming the file that is unreadable, and
+///         its array that does not fit the scene, the index or the other arrays, or holds what is no finite number
 class TrajectoryReader {
  public:
-  explicit TrajectoryReader(const RunFolder& folder);
+  /// @param scene  that of the folder: it says which arrays a frame has
+  TrajectoryReader(const RunFolder& folder, const SceneConfig& scene);
 
-  std::int64_t n_frames() const { return n_frames_; }
+  std::int64_t n_frames() const { return first_frames_.back(); }
 
   /// Calls visit(frame) for every frame in the order of time. Positions that were saved in single precision come back
   /// with that precision; centreline and curvature are always double.
   void for_each_frame(const std::function<void(const Frame&)>& visit) const;
 
+  /// @param number  below n_frames()
+  Frame read_frame(std::int64_t number) const;
+
+  /// Of all frames.
+  std::vector<double> read_times() const;
+
  private:
   RunFolder folder_;
-  std::int64_t n_segments_ = 0, n_frames_ = 0;
+  OutputConfig output_;
+  TrajectoryLayout layout_;
+  std::vector<std::int64_t> first_frames_;  ///< [n_segments + 1]
 };
 
 }  // namespace skein

@@ -13,7 +13,7 @@ namespace skein {
 /// Points of a regular grid along x, y and z: origin + (i, j, k) spacing, i running fastest.
 struct ImageGrid {
   Vec3 origin;                    ///< length
-  double spacing = 1.0;           ///< length, the same along all axes
+  Vec3 spacing{1.0, 1.0, 1.0};    ///< length, along each axis
   std::array<int, 3> n_points{};  ///< a plane has one point along its normal
 
   std::int64_t size() const { return std::int64_t{n_points[0]} * n_points[1] * n_points[2]; }
