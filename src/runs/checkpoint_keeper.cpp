@@ -35,6 +35,12 @@ void CheckpointKeeper::restore(const Checkpoint& checkpoint) {
   step_of_last_ = memory_.state.step;
 }
 
+std::size_t CheckpointKeeper::checkpoint_bytes() const {
+  MemorySize size;
+  memory_.visit(size);
+  return size.bytes();
+}
+
 void CheckpointKeeper::save() {
   const State& state = memory_.state;
   if (step_of_last_ == state.step) return;

@@ -10,6 +10,7 @@
 #include "runs/run_messages.hpp"
 #include "runs/run_recorder.hpp"
 
+#include <cstddef>
 #include <filesystem>
 
 namespace skein {
@@ -39,6 +40,9 @@ class CheckpointKeeper {
 
   /// @param time_before  of the last step
   bool is_due(double time_before) const;
+
+  /// Of the next one.
+  std::size_t checkpoint_bytes() const;
 
   std::filesystem::path newest() const { return folder_.path_of(folder_.last_number()); }
 

@@ -18,6 +18,21 @@ class MemorySaver final : public MemoryVisitor {
   Checkpoint& checkpoint_;
 };
 
+/// Counts the bytes that a checkpoint of it takes.
+class MemorySize final : public MemoryVisitor {
+ public:
+  void number(std::string_view name, double&) override { add(name, 1); }
+  void integer(std::string_view name, std::int64_t&) override { add(name, 1); }
+  void vectors(std::string_view name, const Vectors& values) override { add(name, 3 * values.extent(0)); }
+
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  void add(std::string_view name, std::size_t n_numbers) { bytes_ += 16 + (name.size() + 7) / 8 * 8 + 8 * n_numbers; }
+
+  std::size_t bytes_ = 0;
+};
+
 /// Brings it back. @throws Error(damaged_data) if something is absent or of another size
 class MemoryRestorer final : public MemoryVisitor {
  public:

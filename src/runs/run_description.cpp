@@ -11,6 +11,7 @@
 #include <skein/scene/words.hpp>
 #include <skein/solvers/rkc2_stages.hpp>
 
+#include "runs/expected_output.hpp"
 #include "runs/scene_summary.hpp"
 
 #include <fmt/format.h>
@@ -78,11 +79,10 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
 }
 
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const std::string& integrator, const EvaluationCost& cost, const double spectral_radius) {
-  const double n_nodes = count_nodes(fibers);
-  const double n_frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval);
-  const double bytes = n_frames * n_nodes * 3.0 * bytes_per_number(scene.output.precision);
-  const double evaluations = expect_evaluations(scene, find_time_scale(scene), spectral_radius);
+                         const std::string& integrator, const EvaluationCost& cost, const double spectral_radius,
+                         const std::size_t checkpoint_bytes) {
+  const double time_scale = find_time_scale(scene);
+  const double evaluations = expect_evaluations(scene, time_scale, spectral_radius);
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
   if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
@@ -91,9 +91,13 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);
-  text +=
-      fmt::format("cost: {:.3g} ms an evaluation; roughly {:.2g} evaluations, {}; {:.0f} frames, {:.3g} MB",
-                  1e3 * cost.seconds, evaluations, format_duration(evaluations * cost.seconds), n_frames, 1e-6 * bytes);
+  const Expectation expectation{scene.time.end / expect_largest_step(resolve_time(scene.time, time_scale), time_scale),
+                                evaluations * cost.seconds, checkpoint_bytes};
+  text += fmt::format(
+      "cost: {:.3g} ms an evaluation, wall time beside what else this machine does now; roughly {:.2g} evaluations, "
+      "{}; {}",
+      1e3 * cost.seconds, evaluations, format_duration(expectation.seconds),
+      describe_expected_output(scene, fibers, expectation));
   const double product = scene.time.step * spectral_radius;
   if (scene.time.method == TimeMethod::euler && product > 2.0)
     text += fmt::format(

@@ -6,6 +6,7 @@
 
 #include "runs/evaluation_cost.hpp"
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
 /// A run's first lines: version, device, size, methods and why, what it will take.
 /// @param spectral_radius     at the start, 1 / time; not finite: not known
 /// @param forces, integrator  as they describe themselves; forces beside the springs, empty where there are none
+/// @param checkpoint_bytes    of one checkpoint
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const std::string& integrator, const EvaluationCost& cost, double spectral_radius);
+                         const std::string& integrator, const EvaluationCost& cost, double spectral_radius,
+                         std::size_t checkpoint_bytes);
 
 }  // namespace skein

@@ -72,7 +72,8 @@ void Simulation::introduce() {
   before.bring_back(dynamics_);
   physics_.mobility->take_messages();
   ledger_.exclude_evaluations();
-  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost, radius));
+  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost, radius,
+                   checkpoints_.checkpoint_bytes()));
 }
 
 ExitCode Simulation::run() {
