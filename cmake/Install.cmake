@@ -7,6 +7,17 @@ install(DIRECTORY include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
 
+# The program writes its own completion. Where it does not start, as one for another machine, there is none.
+set(completion_script ${CMAKE_CURRENT_BINARY_DIR}/completion_for_bash)
+install(CODE "execute_process(COMMAND \"$<TARGET_FILE:skein>\" completion bash OUTPUT_FILE \"${completion_script}\"
+  RESULT_VARIABLE failure)
+if(failure)
+  message(WARNING \"skein does not run here: its completion for bash is not installed\")
+  file(REMOVE \"${completion_script}\")
+endif()")
+install(FILES ${completion_script} RENAME skein OPTIONAL
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(SKEIN_COMPONENTS "")
 set(SKEIN_COMPONENT_TABLE "")

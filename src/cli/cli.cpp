@@ -4,6 +4,7 @@
 
 #include "cli/parser.hpp"
 #include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
 
 #include <fmt/format.h>
 
@@ -45,6 +46,8 @@ int run_command_line(const int n_arguments, char** arguments, const std::vector<
   try {
     std::vector<Verb> verbs;
     for (const auto make_verb : make_verbs) verbs.push_back(make_verb());
+    verbs.push_back(make_help_verb(verbs));
+    verbs.push_back(make_completion_verb(verbs));
     return run_action(parse_command_line(n_arguments, arguments, verbs));
   } catch (const Error& error) {
     if (error.code() == ExitCode::internal) return report_internal(error.what());

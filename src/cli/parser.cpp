@@ -76,7 +76,7 @@ void add_verb(CLI::App& app, const Verb& verb) {
 void describe_program(CLI::App& app) {
   std::string build = describe_build();
   while (!build.empty() && build.back() == '\n') build.pop_back();
-  app.set_version_flag("--version", build, "Print version, commit, compiler and Kokkos backends");
+  app.set_version_flag("-V,--version", build, "Print version, commit, compiler and Kokkos backends");
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -84,7 +84,7 @@ void describe_program(CLI::App& app) {
       "  skein validate scene.toml        look for mistakes\n"
       "  skein run scene.toml -o result   simulate into the folder 'result'\n"
       "  skein plot result                draw it\n"
-      "'skein VERB --help' explains a verb.");
+      "'skein help VERB' and 'skein VERB --help' explain a verb.");
 }
 
 std::string suggest(const std::string& name, const std::vector<std::string>& known) {

@@ -26,7 +26,7 @@ using Target =
 struct Argument {
   std::string names;  ///< "scene" is a word at its place, "-o,--output" an option or a flag
   Target target;
-  std::string type_name;  ///< for the help text; empty: what the target says
+  std::string type_name;  ///< for the help text, and what shells complete (completion.cpp); empty: what the target says
   std::string meaning;
   bool is_required = false;
   std::optional<std::pair<double, double>> bounds;  ///< of an int or a double, both within

@@ -2,6 +2,8 @@
 
 #include "cli/verb.hpp"
 
+#include <vector>
+
 namespace skein {
 
 Verb make_run_verb();
@@ -15,5 +17,9 @@ Verb make_reproduce_verb();
 Verb make_phases_verb();
 Verb make_field_verb();
 Verb make_plot_verb();
+
+/// These two tell of all verbs, themselves included. @param verbs  must outlive them
+Verb make_help_verb(const std::vector<Verb>& verbs);
+Verb make_completion_verb(const std::vector<Verb>& verbs);
 
 }  // namespace skein

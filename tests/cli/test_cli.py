@@ -197,6 +197,10 @@ class CommandLine(InFreshFolder):
             ([], "A subcommand is required"),
             (["rnu", "scene.toml"], "unknown verb 'rnu'; did you mean 'run'?"),
             (["xyzzy"], "unknown verb 'xyzzy'"),
+            (["help", "rnu"], "unknown verb 'rnu'; did you mean 'run'?"),
+            (["help", "run", "resume"], "unexpected argument 'resume'"),
+            (["completion"], "shell is required"),
+            (["completion", "fish"], "fish"),
             (["--verson"], "unknown option '--verson'; did you mean '--version'?"),
             (["run", "scene.toml"], "--output"),
             (["run", "scene.toml", "--outptu", "result"], "unknown option '--outptu'; did you mean '--output'?"),
@@ -229,8 +233,18 @@ class CommandLine(InFreshFolder):
                 self.assertEqual((result.returncode, result.stderr), (DONE, ""))
                 self.assertIn("Examples:\n  skein ", result.stdout)
 
+    def test_the_verb_help_says_what_the_option_says(self):
+        self.assertEqual(skein("help").stdout, skein("--help").stdout)
+        for verb in ("run", "resume", "help", "completion"):
+            with self.subTest(verb=verb):
+                result = skein("help", verb)
+                self.assertEqual((result.returncode, result.stderr), (DONE, ""))
+                self.assertEqual(result.stdout, skein(verb, "--help").stdout)
+                self.assertIn(f"skein {verb}", result.stdout)
+
     def test_version_tells_the_build(self):
         result = skein("--version")
+        self.assertEqual(skein("-V").stdout, result.stdout)
         self.assertEqual((result.returncode, result.stderr), (DONE, ""))
         for name in ("skein: ", "commit: ", "compiler: ", "Kokkos: ", "backend: "):
             self.assertIn(name, result.stdout)
