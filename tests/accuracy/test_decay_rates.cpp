@@ -1,3 +1,5 @@
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/dynamics/spectral_radius_at.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/spring_forces.hpp>
 
@@ -190,6 +192,34 @@ TEST(DecayRatesOfSmallFibers, RatesScaleWithStiffnessOverViscosity) {
   const Decay stiffer = decay_of_mode(config, 1.4, 2);
   for (Eigen::Index i = 0; i < once.rate.size(); ++i)
     EXPECT_NEAR(stiffer.rate[i], 2.5 * once.rate[i], 1e-9 * once.rate[i]);
+}
+
+// By which Euler's stability is judged, whatever the fiber is made of.
+TEST(SpectralRadius, IsTheLargestRate) {
+  for (const int nodes : {3, 4, 6, 9})
+    for (const double blob_ratio : {0.5, 1.0, 1.4})
+      for (const double stiffness : {0.0112, 0.0409, 3.0}) {
+        SceneConfig scene;
+        scene.flows = {};
+        scene.fluid.viscosity = 1.7;
+        FiberConfig fiber;
+        fiber.sections = 12;
+        fiber.nodes_per_section = nodes;
+        fiber.spring_stiffness = stiffness;
+        fiber.blob = std::min(0.0049, blob_ratio * make_fibers({fiber})[0].spacing());
+        scene.fibers = {fiber};
+        double largest = 0.0;
+        for (int mode = 0; mode <= nodes / 2; ++mode)
+          largest = std::max(largest, decay_of_mode(fiber, scene.fluid.viscosity, mode).rate.maxCoeff());
+        Physics physics = make_physics(scene);
+        FiberDynamics dynamics(physics);
+        const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
+        const auto find = [&](const PowerIterationLimits& limits) {
+          return find_spectral_radius_at(physics, dynamics, 0.0, position, 1, limits);
+        };
+        EXPECT_NEAR(find(exact_radius), largest, 0.01 * largest) << nodes << " nodes, blob " << fiber.blob;
+        EXPECT_NEAR(find(rough_radius), 0.93 * largest, 0.1 * largest) << nodes << " nodes, blob " << fiber.blob;
+      }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 Usage: check_times.py SKEIN FOLDER"""
 
+import json
 import pathlib
 import shutil
 import subprocess
@@ -30,8 +31,8 @@ frame_interval = 0.3
 """
 
 
-def make_turning_scene(unit=1.0):
-    """A fiber that tumbles a little, told in a unit of time of which `unit` make the paper's."""
+def make_turning_scene(unit=1.0, end=1.2):
+    """A fiber that tumbles, told in a unit of time of which `unit` make the paper's; `end` in the paper's."""
     return f"""
 [flow]
 rate = {2.5 / unit!r}
@@ -43,7 +44,7 @@ blob = 0.0045
 start_amplitude = 0.01
 direction = [1.0, 0.3, 0.0]
 [time]
-end = {1.2 * unit!r}
+end = {end * unit!r}
 """
 
 
@@ -91,6 +92,37 @@ def check_units(program):
         check(np.abs(frames - others).max() <= tolerance * 0.14, f"unit {unit}: {np.abs(frames - others).max()}")
 
 
+def leaves_of(tree, path=""):
+    """The numbers and words of what JSON holds, by their places."""
+    if isinstance(tree, (dict, list)):
+        items = tree.items() if isinstance(tree, dict) else enumerate(tree)
+        return {place: leaf for key, value in items for place, leaf in leaves_of(value, f"{path}/{key}").items()}
+    return {path: tree}
+
+
+def check_analysis(program):
+    """Every number of an analysis is one of the same motion: itself times a power of the unit of time."""
+    unit = 2.0**20
+    found = []
+    for name, factor in (("turn", 1.0), ("turn_in_other_units", unit)):
+        program.run(name, make_turning_scene(factor, 11.0), "-q")
+        result = subprocess.run([program.program, "analyze", program.folder / name, "--json"], capture_output=True, text=True)
+        check(result.returncode == 0, result.stderr)
+        found.append(leaves_of(json.loads(result.stdout)))
+    here, there = found
+    check(here.keys() == there.keys(), f"other places: {here.keys() ^ there.keys()}")
+    n_times = 0
+    for place, value in here.items():
+        other = there[place]
+        if isinstance(value, float) and value != 0.0 and other is not None:
+            power = np.log2(abs(other / value)) / 20.0
+            check(abs(power - round(power)) < 1e-9 and abs(power) < 3.5 and value * other > 0, f"{place}: {value}, {other}")
+            n_times += round(power) == 1
+        else:
+            check(value == other, f"{place}: {value} and {other}")
+    check(n_times >= 2, "the fiber did not turn")
+
+
 def check_no_limit(program):
     _, frames, steps = program.run("limited", make_turning_scene())
     for limit in ("1e10", "inf", "1e30"):
@@ -125,6 +157,7 @@ def main():
     program = Program(sys.argv[1], pathlib.Path(sys.argv[2]))
     check_pulses(program)
     check_units(program)
+    check_analysis(program)
     check_no_limit(program)
     check_eulers_warning(program)
 

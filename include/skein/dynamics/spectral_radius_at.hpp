@@ -13,7 +13,7 @@ struct PowerIterationLimits {
   int max_iterations;
 };
 
-/// Good for the choice of a method and for what a run will take.
+/// Good for the choice of a method and for what a run will take: up to an eighth too low.
 inline constexpr PowerIterationLimits rough_radius{0.05, 30};
 
 /// Good for saying whether a step is stable.
