@@ -102,8 +102,7 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   if (scene.time.method == TimeMethod::euler && product > 2.0)
     text += fmt::format(
         "\nwarning: the step times the spectral radius at the start ({:.4g}) is {:.3g}; forward Euler is unstable "
-        "above "
-        "2: set time.step below {:.3g}, or use time.method = \"rkc2\"",
+        "above 2: set time.step below {:.3g}, or use time.method = \"rkc2\"",
         spectral_radius, product, 2.0 / spectral_radius);
   return text;
 }
