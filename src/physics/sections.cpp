@@ -2,9 +2,11 @@
 #include <skein/physics/sections.hpp>
 
 #include "device_list.hpp"
+#include "kernels/penetration.hpp"
 #include "kernels/section_boxes.hpp"
 #include "kernels/section_fault.hpp"
 #include "kernels/section_gap.hpp"
+#include "kernels/tube_surface.hpp"
 
 namespace skein {
 namespace {
@@ -36,12 +38,28 @@ SectionBoxes<ExecSpace> make_boxes(const std::vector<Fiber>& fibers) {
   return boxes;
 }
 
+TubeSurfaces<ExecSpace> make_surfaces(const SectionBoxes<ExecSpace>& boxes) {
+  const std::size_t n_fibers = boxes.fiber.extent(0), n_blocks = boxes.fiber_of_block.extent(0),
+                    n_sections = boxes.centroid.extent(0);
+  TubeSurfaces<ExecSpace> surfaces;
+  surfaces.sections = boxes;
+  surfaces.ring_low = Vectors("skein::TubeSurfaces::ring_low", n_sections);
+  surfaces.ring_high = Vectors("skein::TubeSurfaces::ring_high", n_sections);
+  surfaces.block_low = Vectors("skein::TubeSurfaces::block_low", n_blocks);
+  surfaces.block_high = Vectors("skein::TubeSurfaces::block_high", n_blocks);
+  surfaces.fiber_low = Vectors("skein::TubeSurfaces::fiber_low", n_fibers);
+  surfaces.fiber_high = Vectors("skein::TubeSurfaces::fiber_high", n_fibers);
+  return surfaces;
+}
+
 }  // namespace
 
 Sections::Sections(const std::vector<Fiber>& fibers)
     : n_nodes_(count_nodes(fibers)),
       n_sections_(count_sections(fibers)),
-      boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(fibers))) {}
+      boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(fibers))),
+      surfaces_(std::make_unique<TubeSurfaces<ExecSpace>>(make_surfaces(*boxes_))),
+      depth_("skein::Sections::depth", static_cast<std::size_t>(n_nodes_)) {}
 
 Sections::~Sections() = default;
 Sections::Sections(Sections&&) noexcept = default;
@@ -64,6 +82,15 @@ std::vector<Vec3> Sections::compute_centreline(const ConstVectors& position) con
 
 double Sections::compute_smallest_gap(const ConstVectors& position) const {
   return skein::compute_smallest_gap<ExecSpace>(ExecSpace(), locate(position));
+}
+
+Penetration Sections::compute_penetration(const ConstVectors& position) const {
+  SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
+  surfaces_->position = position;
+  locate_surfaces<ExecSpace>(ExecSpace(), *surfaces_);
+  const NodesInside inside = skein::compute_penetration<ExecSpace>(ExecSpace(), *surfaces_, depth_);
+  surfaces_->position = {};
+  return {inside.count, inside.depth};
 }
 
 const SectionBoxes<ExecSpace>& Sections::locate(const ConstVectors& position) const {

@@ -10,6 +10,14 @@ namespace skein {
 
 template <class Space>
 struct SectionBoxes;
+template <class Space>
+struct TubeSurfaces;
+
+/// How far fibers stick in each other.
+struct Penetration {
+  int nodes = 0;       ///< inside the surface of another fiber, or of a distant part of their own
+  double depth = 0.0;  ///< of the deepest: its distance to that surface, length
+};
 
 /// The sections of all fibers on the device: what is asked of all of them takes one launch or a few, however many
 /// fibers there are. One call at a time: the object holds scratch.
@@ -39,12 +47,19 @@ class Sections {
   /// where there is no such pair. Length
   double compute_smallest_gap(const ConstVectors& position) const;
 
+  /// Nodes inside of surfaces, which are those of the prisms between neighbouring rings of nodes, however they are
+  /// deformed, closed at both ends; distant parts of a fiber are those of Fiber::distant_sections. Exact: unlike the
+  /// gap, it does not take sections for spheres.
+  Penetration compute_penetration(const ConstVectors& position) const;
+
   /// Centroids, and boxes about blocks of sections and about fibers, of nodes at `position`: for kernels.
   const SectionBoxes<ExecSpace>& locate(const ConstVectors& position) const;
 
  private:
   int n_nodes_, n_sections_;
   std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
+  std::unique_ptr<TubeSurfaces<ExecSpace>> surfaces_;
+  Scalars depth_;  ///< [n_nodes], of nodes in surfaces, length
 };
 
 }  // namespace skein
