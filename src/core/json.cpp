@@ -10,21 +10,23 @@
 namespace skein {
 namespace {
 
+// Control characters, and marks that would change how the text looks, are written as numbers: they mean the same to
+// programs, and do nothing to a terminal.
 std::string quote(const std::string_view text) {
   std::string quoted = "\"";
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8_sequence_length(text, at);
+    const Utf8Character character = read_utf8(text, at);
     const char c = text[at];
-    if (length == 0) {
+    if (character.n_bytes == 0) {
       quoted += "\\ufffd";
     } else if (c == '"' || c == '\\') {
       quoted += {'\\', c};
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      quoted += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    } else if (is_control_character(character.code)) {
+      quoted += fmt::format("\\u{:04x}", static_cast<std::uint32_t>(character.code));
     } else {
-      quoted += text.substr(at, length);
+      quoted += text.substr(at, character.n_bytes);
     }
-    at += std::max<std::size_t>(length, 1);
+    at += std::max<std::size_t>(character.n_bytes, 1);
   }
   return quoted + '"';
 }

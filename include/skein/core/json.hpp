@@ -26,7 +26,7 @@ class JsonWriter {
 
   JsonWriter& key(std::string_view name);
 
-  /// Bytes that are no UTF-8 become U+FFFD each.
+  /// Bytes that are no UTF-8 become U+FFFD each; control characters and the like are written by their numbers.
   JsonWriter& value(std::string_view text);
   JsonWriter& value(const char* text) { return value(std::string_view(text)); }
   /// The fewest digits that read back as the same number; whole numbers end in ".0", so that readers can tell them from
