@@ -2,6 +2,8 @@
 #include <skein/core/milestone.hpp>
 #include <skein/io/atomic_file.hpp>
 
+#include "open_file.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -47,8 +49,7 @@ void reach_point(const std::filesystem::path& path, const char* point) {
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
   partial_ += ".partial";
-  descriptor_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw_io_error(fmt::format("cannot create '{}' (0 bytes written)", partial_.string()), errno);
+  descriptor_ = create_file(partial_);
 }
 
 AtomicFile::~AtomicFile() {
@@ -75,9 +76,17 @@ void AtomicFile::write(const void* bytes, const std::size_t n_bytes) {
   bytes_written_ += n_bytes;
 }
 
+std::string AtomicFile::what_fails() const {
+  return fmt::format("cannot put '{}' ({} bytes) on disk", path_.string(), bytes_written_);
+}
+
+void AtomicFile::sync() {
+  if (::fsync(descriptor_) != 0) throw_io_error(what_fails(), errno);
+}
+
 void AtomicFile::commit() {
-  const std::string what = fmt::format("cannot put '{}' ({} bytes) on disk", path_.string(), bytes_written_);
-  if (::fsync(descriptor_) != 0) throw_io_error(what, errno);
+  const std::string what = what_fails();
+  sync();
   reach_point(path_, "before_rename");
   const int descriptor = std::exchange(descriptor_, -1);
   if (::close(descriptor) != 0 || ::rename(partial_.c_str(), path_.c_str()) != 0) {

@@ -84,6 +84,12 @@ std::uint64_t CheckpointFolder::write(const Checkpoint& checkpoint, const int ke
   return file.bytes_written();
 }
 
+void CheckpointFolder::rehearse(const Checkpoint& checkpoint) const {
+  AtomicFile file(folder_.checkpoints() / "rehearsal");
+  file.write(encode_checkpoint(checkpoint));
+  file.sync();
+}
+
 std::string find_checkpoint_fault(const RunFolder& folder, const Checkpoint& checkpoint) {
   if (checkpoint.text("scene.xxh3") != checksum_of_file(folder.scene()))
     return "it belongs to another scene than this folder's scene.toml";

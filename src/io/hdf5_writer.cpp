@@ -13,6 +13,9 @@
 namespace skein {
 namespace {
 
+// A file in memory has a name, too, and HDF5 opens and reads what it finds under it: here nothing can be.
+constexpr const char* no_file = "/dev/null/skein";
+
 Hdf5Handle open_object(const Hdf5Handle& file, const std::string& name) {
   return {H5Oopen(file.id(), name.c_str(), H5P_DEFAULT), H5Oclose};
 }
@@ -50,7 +53,7 @@ Hdf5Writer::Hdf5Writer(std::filesystem::path path, const std::size_t growth)
   checked(H5Pset_create_intermediate_group(make_groups_.id(), 1), "prepare", "/");
   const Hdf5Handle access = handle(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare", "/");
   checked(H5Pset_fapl_core(access.id(), growth, /*backing_store=*/false), "prepare", "/");
-  file_ = handle(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "begin", "/");
+  file_ = handle(H5Fcreate(no_file, H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose, "begin", "/");
 }
 
 void Hdf5Writer::make_group(const std::string& group) {

@@ -1,7 +1,8 @@
 #include <skein/core/error.hpp>
 #include <skein/io/line_file.hpp>
 
-#include <fcntl.h>
+#include "open_file.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,12 +12,7 @@
 
 namespace skein {
 
-LineFile::LineFile(const std::filesystem::path& path) : path_(path) {
-  descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0)
-    throw Error(ExitCode::io_error, fmt::format("cannot open '{}' for writing (0 bytes written): {}.", path.string(),
-                                                std::strerror(errno)));
-}
+LineFile::LineFile(const std::filesystem::path& path) : path_(path), descriptor_(open_to_append(path)) {}
 
 LineFile::~LineFile() { ::close(descriptor_); }
 

@@ -29,6 +29,22 @@ bool is_file_of_a_run(const std::string& name) {
   return false;
 }
 
+// What `skein analyze` and `skein plot` write.
+bool is_table(const std::string& name) {
+  const std::string_view whole = without_partial(name);
+  return whole == "diagnostics.h5" || whole == "diagnostics.csv";
+}
+
+bool is_picture(const std::string& name) {
+  constexpr std::array<std::string_view, 7> pictures = {"shapes",  "angle", "curvature", "energy",
+                                                        "extrema", "power", "defects"};
+  const std::string_view whole = without_partial(name);
+  for (const std::string_view suffix : {".png", ".pdf", ".svg"})
+    for (const std::string_view picture : pictures)
+      if (whole.ends_with(suffix) && whole.substr(0, whole.size() - suffix.size()) == picture) return true;
+  return whole == "movie.mp4";
+}
+
 // Segments and checkpoints: digits and ".h5" or ".checkpoint", also what became of them.
 bool is_numbered_file(const std::string& name) {
   std::string_view stem = without_partial(name);
@@ -60,9 +76,36 @@ void remove_files(const fs::path& folder, bool (*is_ours)(const std::string&)) {
     if (!entry.is_directory() && is_ours(entry.path().filename().string())) fs::remove(entry.path());
 }
 
+// A folder of results goes with the last of them; what somebody else put there stays.
+void remove_results(const fs::path& folder, bool (*is_ours)(const std::string&)) {
+  if (!fs::is_directory(fs::symlink_status(folder))) return;
+  remove_files(folder, is_ours);
+  if (fs::is_empty(folder)) fs::remove(folder);
+}
+
+// The way from a folder down to a path whose links are resolved; empty if it is not below. Folders are compared as the
+// system knows them, whatever they are called: by another mount, or in other letters.
+fs::path find_way_below(const fs::path& folder, const fs::path& path) {
+  std::error_code ignored;
+  fs::path way;
+  for (fs::path place = path; place.has_relative_path();) {
+    way = way.empty() ? place.filename() : place.filename() / way;
+    place = place.parent_path();
+    if (fs::equivalent(place, folder, ignored)) return way;
+  }
+  return {};
+}
+
+bool is_way_to_part(const fs::path& way) {
+  if (way.empty()) return false;
+  const std::string first = way.begin()->string();
+  return first == "lock" || first == "segments" || first == "checkpoints" || is_file_of_a_run(first);
+}
+
 }  // namespace
 
 RunFolder RunFolder::create(const fs::path& path, const std::string& scene, const bool overwrite) {
+  if (path.empty()) throw Error(ExitCode::usage, "the run folder has no name");
   RunFolder folder(path);
   const std::string name = path.string();
   try {
@@ -78,6 +121,8 @@ RunFolder RunFolder::create(const fs::path& path, const std::string& scene, cons
       fs::remove(folder.index());
       remove_files(folder.segments(), is_numbered_file);
       remove_files(folder.checkpoints(), is_numbered_file);
+      remove_results(folder.analysis(), is_table);
+      remove_results(folder.plots(), is_picture);
       remove_files(path, is_file_of_a_run);
     }
     // Of two that start at once in a new folder only one makes this folder.
@@ -105,6 +150,22 @@ RunFolder RunFolder::open(const fs::path& path) {
   RunFolder folder = open_begun(path);
   check_present(path, folder.index());
   return folder;
+}
+
+bool RunFolder::is_part(const fs::path& path) const {
+  std::error_code ignored;
+  const fs::path whole = fs::absolute(path.has_filename() ? path : path.parent_path());
+  // A file that is written takes the place of a link; a file that is read, or a folder, is where the link leads to.
+  const fs::path place = fs::weakly_canonical(whole.parent_path(), ignored) / whole.filename();
+  return is_way_to_part(find_way_below(path_, place)) ||
+         is_way_to_part(find_way_below(path_, fs::weakly_canonical(whole, ignored)));
+}
+
+void check_output(const fs::path& output, const RunFolder& run) {
+  if (!run.is_part(output)) return;
+  throw Error(ExitCode::cannot_create,
+              fmt::format("'{}' is a part of the run in '{}' and is not replaced; name another output.",
+                          output.string(), run.path().string()));
 }
 
 }  // namespace skein

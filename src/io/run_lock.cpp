@@ -2,7 +2,9 @@
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/run_lock.hpp>
 
-#include <fcntl.h>
+#include "local_file_system.hpp"
+#include "open_file.hpp"
+
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -67,13 +69,16 @@ Owner read_owner(const std::string& text) {
   return owner;
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const Owner& owner) {
-  if (owner.host == host_name() || owner.host.empty())
-    throw Error(
-        ExitCode::cannot_create,
-        fmt::format("'{}' is being written by process {}; wait for it, or stop it with a signal or a file named "
-                    "STOP in the folder.",
-                    path.parent_path().string(), owner.process));
+[[noreturn]] void refuse_while_written(const std::filesystem::path& path, const Owner& owner) {
+  const bool is_here = owner.host == host_name() || owner.host.empty();
+  throw Error(
+      ExitCode::cannot_create,
+      fmt::format("'{}' is being written by process {}{}; wait for it, or stop it with a signal or a file named "
+                  "STOP in the folder.",
+                  path.parent_path().string(), owner.process, is_here ? "" : " on host " + owner.host));
+}
+
+[[noreturn]] void refuse_in_doubt(const std::filesystem::path& path, const Owner& owner) {
   throw Error(ExitCode::cannot_create,
               fmt::format("'{}' was locked by process {} on host {}, and whether that still runs cannot be seen from "
                           "here. If it does not, remove '{}' and try again.",
@@ -95,56 +100,78 @@ std::string read_all(const int descriptor) {
 bool is_still_named(const int descriptor, const std::filesystem::path& path) {
   struct stat opened {
   }, named{};
-  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
          opened.st_dev == named.st_dev;
 }
 
-// Opens and locks, or returns -1 where another process of this host has it.
-int open_locked(const std::filesystem::path& path) {
+struct LockFile {
+  int descriptor;
+  bool is_held;  ///< by this process, as the system says; false where the file system has no locks
+};
+
+LockFile open_locked(const std::filesystem::path& path) {
   for (;;) {
-    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor < 0) fail(path, "create", 0);
-    // Where the file system has no locks, host and process alone decide.
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    const int descriptor = open_to_lock(path);
+    const bool is_held = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (!is_held && errno == EWOULDBLOCK) {
+      const Owner owner = read_owner(read_all(descriptor));
       ::close(descriptor);
-      return -1;
+      refuse_while_written(path, owner);
     }
-    if (is_still_named(descriptor, path)) return descriptor;
+    if (is_still_named(descriptor, path)) return {descriptor, is_held};
     ::close(descriptor);
   }
 }
 
-bool may_live(const Owner& owner) {
-  if (owner.host != host_name()) return true;
+bool lives_here(const Owner& owner) {
   return owner.process != ::getpid() && !owner.began.empty() && find_beginning(owner.process) == owner.began;
+}
+
+// Of an owner whose lock the system does not hold any more. What runs on another machine cannot have a file of this
+// machine's own file systems; what calls itself by another name here, as in a container, would hold it.
+void refuse_if_it_may_live(const std::filesystem::path& path, const Owner& owner, const LockFile& file) {
+  if (owner.host == host_name()) {
+    if (lives_here(owner)) refuse_while_written(path, owner);
+  } else if (!file.is_held || !is_on_local_file_system(file.descriptor)) {
+    refuse_in_doubt(path, owner);
+  }
 }
 
 }  // namespace
 
 RunLock::RunLock(const RunFolder& folder) : path_(folder.lock()) {
-  const int descriptor = open_locked(path_);
-  if (descriptor < 0) refuse(path_, read_owner(read_or_nothing(path_.string())));
-  const Owner before = read_owner(read_all(descriptor));
+  LockFile file = open_locked(path_);
+  const Owner before = read_owner(read_all(file.descriptor));
   was_left_behind_ = before.process > 0;
-  if (was_left_behind_ && may_live(before)) {
-    ::close(descriptor);
-    refuse(path_, before);
+  try {
+    if (was_left_behind_) refuse_if_it_may_live(path_, before, file);
+  } catch (const Error&) {
+    ::close(file.descriptor);
+    throw;
+  }
+  if (was_left_behind_ && before.host != host_name())
+    note_ = fmt::format("'{}' was left by process {} on host {}; nobody holds it on this file system: it is taken over",
+                        path_.string(), before.process, before.host);
+  if (has_other_names(file.descriptor)) {  // what is written here must not be seen elsewhere
+    ::unlink(path_.c_str());
+    ::close(file.descriptor);
+    file = open_locked(path_);
   }
   const std::string text = describe({host_name(), ::getpid(), find_beginning(::getpid())});
   errno = ENOSPC;  // what a write that stops short means
-  if (::ftruncate(descriptor, 0) != 0 ||
-      ::pwrite(descriptor, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
+  if (::ftruncate(file.descriptor, 0) != 0 ||
+      ::pwrite(file.descriptor, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
     const int error_number = errno;
     ::unlink(path_.c_str());
-    ::close(descriptor);
+    ::close(file.descriptor);
     errno = error_number;
     fail(path_, "write", text.size());
   }
-  descriptor_ = descriptor;
+  descriptor_ = file.descriptor;
 }
 
 RunLock::~RunLock() {
-  ::unlink(path_.c_str());
+  if (is_still_named(descriptor_, path_)) ::unlink(path_.c_str());
   ::close(descriptor_);
 }
 

@@ -53,6 +53,65 @@ TEST(RunFolder, OverwritesOnlyWhatARunWrote) {
   EXPECT_EQ(read_file(run / "scene.toml"), "new scene");
 }
 
+TEST(RunFolder, TablesAndPicturesGoWithTheRunThatTheyShow) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run";
+  const RunFolder folder = RunFolder::create(run, "scene", false);
+  for (const fs::path& results : {folder.analysis(), folder.plots()}) fs::create_directory(results);
+  for (const char* name : {"diagnostics.h5", "diagnostics.csv", "diagnostics.h5.partial"})
+    write_file_atomically(folder.analysis() / name, "old");
+  for (const char* name : {"shapes.png", "defects.svg", "movie.mp4", "angle.pdf.partial", "shapes.txt", "mine.png"})
+    write_file_atomically(folder.plots() / name, "old");
+  RunFolder::create(run, "new scene", true);
+  EXPECT_EQ(names_in(run), (std::set<std::string>{"plots", "scene.toml", "segments"}));
+  EXPECT_EQ(names_in(folder.plots()), (std::set<std::string>{"mine.png", "shapes.txt"}));
+
+  // Another folder that a link leads to is not this run's.
+  fs::create_directory(scratch.path() / "elsewhere");
+  write_file_atomically(scratch.path() / "elsewhere" / "diagnostics.h5", "another's");
+  fs::create_symlink(scratch.path() / "elsewhere", folder.analysis());
+  RunFolder::create(run, "new scene", true);
+  EXPECT_EQ(read_file(scratch.path() / "elsewhere" / "diagnostics.h5"), "another's");
+}
+
+TEST(RunFolder, KnowsItsPartsByEveryName) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run", link = scratch.path() / "link";
+  const RunFolder folder = RunFolder::create(run, "scene", false);
+  fs::create_directory_symlink(run, link);
+  fs::create_symlink(folder.scene(), scratch.path() / "mine.toml");
+  fs::create_directory_symlink(folder.segments(), scratch.path() / "s");
+  const fs::path parts[] = {"run/trajectory.h5",
+                            "link/trajectory.h5",
+                            "run/../run/./segments/../scene.toml",
+                            "run/segments/000000.h5",
+                            "run/segments",
+                            "run/segments/",
+                            "link/checkpoints/new.h5",
+                            "run/lock",
+                            "run/trajectory.h5.partial",
+                            "mine.toml",
+                            "s/flow.vti",
+                            "s",
+                            "run/STOP",
+                            "link//run.log"};
+  for (const fs::path& part : parts) EXPECT_TRUE(folder.is_part(scratch.path() / part)) << part;
+  const fs::path others[] = {"run/flow.vti", "run/plots/shapes.png", "run/analysis",      "trajectory.h5", "run",
+                             "link/",        "other/segments/x",     "run/../scene.toml", "run/notes/lock"};
+  for (const fs::path& other : others) EXPECT_FALSE(folder.is_part(scratch.path() / other)) << other;
+
+  const fs::path before = fs::current_path();
+  fs::current_path(run);
+  EXPECT_TRUE(folder.is_part("trajectory.h5"));
+  EXPECT_TRUE(folder.is_part("./segments"));
+  EXPECT_FALSE(folder.is_part("flow.vti"));
+  fs::current_path(before);
+}
+
+TEST(RunFolder, HasAName) {
+  EXPECT_EQ(code_of([] { RunFolder::create("", "scene", false); }), ExitCode::usage);
+}
+
 TEST(RunSummary, CountsWhatIsThere) {
   const ScratchFolder scratch;
   const fs::path run = scratch.path() / "run";

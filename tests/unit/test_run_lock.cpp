@@ -1,14 +1,18 @@
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/run_lock.hpp>
 
+#include "src/io/local_file_system.hpp"
 #include "tests/unit/error_code.hpp"
 #include "tests/unit/scratch_folder.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string>
 
@@ -84,15 +88,52 @@ TEST(RunLock, TellsALivingOwnerByItsBeginning) {
   kill_owner(owner);
 }
 
-TEST(RunLock, OfAnotherHostIsLeftToTheUser) {
+// A container that is gone had a name of its own. Where the file system is this machine's, the lock that the system
+// grants proves that it is gone; where others may write, too, nothing does.
+TEST(RunLock, OfAnotherHostIsTakenOverOnALocalFileSystemOnly) {
   const ScratchFolder scratch;
   const RunFolder folder = make_folder(scratch);
   write_file_atomically(folder.lock(), "host elsewhere.example\nprocess 1\nbegan 1@1\n");
+  const int descriptor = ::open(scratch.path().c_str(), O_RDONLY);
+  const bool is_local = is_on_local_file_system(descriptor);
+  ::close(descriptor);
   std::string message;
-  EXPECT_EQ(code_of([&] { RunLock lock(folder); }, &message), ExitCode::cannot_create);
-  EXPECT_NE(message.find("elsewhere.example"), std::string::npos);
-  EXPECT_NE(message.find("remove '" + folder.lock().string()), std::string::npos);
-  EXPECT_TRUE(std::filesystem::exists(folder.lock()));
+  std::optional<RunLock> lock;
+  const ExitCode code = code_of([&] { lock.emplace(folder); }, &message);
+  if (is_local) {
+    ASSERT_EQ(code, ExitCode::done) << message;
+    EXPECT_TRUE(lock->was_left_behind());
+    EXPECT_NE(lock->note().find("process 1 on host elsewhere.example"), std::string::npos) << lock->note();
+    EXPECT_EQ(code_of([&] { RunLock second(folder); }), ExitCode::cannot_create);
+  } else {
+    EXPECT_EQ(code, ExitCode::cannot_create);
+    EXPECT_NE(message.find("remove '" + folder.lock().string()), std::string::npos) << message;
+    EXPECT_TRUE(std::filesystem::exists(folder.lock()));
+  }
+}
+
+// Held by the system: alive, whatever it calls its host.
+TEST(RunLock, OfALivingContainerIsRefused) {
+  const ScratchFolder scratch;
+  const RunFolder folder = make_folder(scratch);
+  const pid_t owner = start_owner(folder);
+  {
+    std::ofstream text(folder.lock());  // the same file: the owner's lock stays
+    text << "host elsewhere.example\nprocess 7\nbegan 1@1\n";
+  }
+  std::string message;
+  EXPECT_EQ(code_of([&] { RunLock second(folder); }, &message), ExitCode::cannot_create);
+  EXPECT_NE(message.find("is being written by process 7 on host elsewhere.example"), std::string::npos) << message;
+  kill_owner(owner);
+}
+
+TEST(LocalFileSystem, IsOneThatOtherMachinesDoNotHave) {
+  for (const std::uint64_t type : {0xef53, 0x58465342, 0x01021994})
+    EXPECT_TRUE(is_local_type(type));  // ext4, XFS, tmpfs
+  // NFS, Lustre, GPFS, Ceph, FUSE (sshfs), SMB 1 and 2, 9p, AFS, OCFS2, GFS2, BeeGFS, and one that nobody knows
+  for (const std::uint64_t type : {0x6969u, 0x0bd00bd0u, 0x47504653u, 0x00c36400u, 0x65735546u, 0x517bu, 0xfe534d42u,
+                                   0x01021997u, 0x5346414fu, 0x7461636fu, 0x01161970u, 0x19830326u, 0x12345678u})
+    EXPECT_FALSE(is_local_type(type)) << type;
 }
 
 }  // namespace

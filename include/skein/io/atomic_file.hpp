@@ -23,9 +23,14 @@ class AtomicFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   void commit();
 
+  /// Puts on disk what is written so far; commit() does it, too.
+  void sync();
+
   std::uint64_t bytes_written() const { return bytes_written_; }
 
  private:
+  std::string what_fails() const;
+
   std::filesystem::path path_;
   std::filesystem::path partial_;
   int descriptor_ = -1;

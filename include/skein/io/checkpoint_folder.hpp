@@ -21,6 +21,9 @@ class CheckpointFolder {
   /// @returns the bytes written. @throws Error(io_error): the older ones are then all there still.
   std::uint64_t write(const Checkpoint& checkpoint, int keep);
 
+  /// Puts as much on disk as write() does, and removes it: how long that takes is what the caller wants to know.
+  void rehearse(const Checkpoint& checkpoint) const;
+
   std::int64_t last_number() const { return last_number_; }
   std::filesystem::path path_of(std::int64_t number) const;
 

@@ -12,7 +12,8 @@ class RunFolder {
   /// Makes the folder with its parents, and puts the scene into it.
   ///
   /// @param scene      text of the resolved scene
-  /// @param overwrite  clear what an earlier run left there (and nothing else) instead of refusing
+  /// @param overwrite  clear what an earlier run left there, its tables and pictures included (and nothing else),
+  ///                   instead of refusing
   /// @throws Error(cannot_create) if the folder cannot be made, if it holds a run and overwrite is false, or if it
   /// holds
   ///         anything but a run; Error(io_error) if the disk is full or fails.
@@ -36,12 +37,20 @@ class RunFolder {
   std::filesystem::path stop_request() const { return path_ / "STOP"; }
   std::filesystem::path output_request() const { return path_ / "OUTPUT_NOW"; }
   std::filesystem::path analysis() const { return path_ / "analysis"; }
+  std::filesystem::path plots() const { return path_ / "plots"; }
   std::filesystem::path events() const { return path_ / "events.jsonl"; }
+
+  /// True if a path is, or leads to, a file that the run itself reads or writes, or would be taken for one: whatever
+  /// its spelling, and whether or not it is there.
+  bool is_part(const std::filesystem::path& path) const;
 
  private:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
 
   std::filesystem::path path_;
 };
+
+/// For whatever is written about a run. @throws Error(cannot_create) if the output, a file or a folder, is a part of it
+void check_output(const std::filesystem::path& output, const RunFolder& run);
 
 }  // namespace skein

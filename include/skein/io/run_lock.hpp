@@ -3,6 +3,7 @@
 #include <skein/io/run_folder.hpp>
 
 #include <filesystem>
+#include <string>
 
 namespace skein {
 
@@ -10,19 +11,22 @@ namespace skein {
 /// holding host name, process and when that process began. The lock of a process that is no more is taken over.
 class RunLock {
  public:
-  /// @throws Error(cannot_create), saying who holds it, if the folder has a writer, or had one on another host, of
-  ///         which cannot be known whether it lives. @throws Error(io_error) if the lock cannot be written.
+  /// @throws Error(cannot_create), saying who holds it, if the folder has a writer, or had one on another host and
+  ///         whether that lives cannot be known: where the file system may be shared with other machines.
+  /// @throws Error(io_error) if the lock cannot be written.
   explicit RunLock(const RunFolder& folder);
   ~RunLock();
   RunLock(const RunLock&) = delete;
   RunLock& operator=(const RunLock&) = delete;
 
   bool was_left_behind() const { return was_left_behind_; }  ///< by a process that did not end by itself
+  const std::string& note() const { return note_; }  ///< to be said: that another host's was taken over; or empty
 
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
   bool was_left_behind_ = false;
+  std::string note_;
 };
 
 }  // namespace skein
