@@ -1,8 +1,13 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/arrays/types.hpp>
+#include <skein/core/error.hpp>
 #include <skein/core/version.hpp>
 
+#include "host_threads.hpp"
+
 #include <fmt/format.h>
+
+#include <exception>
 
 namespace skein {
 namespace {
@@ -29,7 +34,16 @@ std::string host_threads() {
 
 }  // namespace
 
-Runtime::Runtime(const int threads) { initialize_kokkos(threads); }
+Runtime::Runtime(const int threads) {
+  const int n_threads = choose_host_threads(threads);
+  try {
+    initialize_kokkos(n_threads);
+  } catch (const std::exception& error) {
+    throw Error(
+        ExitCode::usage,
+        fmt::format("Kokkos does not begin: {}\nLook at the variables KOKKOS_* of the environment.", error.what()));
+  }
+}
 Runtime::~Runtime() { Kokkos::finalize(); }
 
 std::string describe_backend() {

@@ -41,6 +41,29 @@ std::size_t CheckpointKeeper::checkpoint_bytes() const {
   return size.bytes();
 }
 
+Checkpoint CheckpointKeeper::make_checkpoint() const {
+  memory_.ledger.keep_seconds();
+  Checkpoint checkpoint;
+  MemorySaver saver(checkpoint);
+  memory_.visit(saver);
+  write_trajectory_end(checkpoint, memory_.recorder.trajectory().end());
+  checkpoint.set("scene.xxh3", scene_checksum_);
+  checkpoint.set("scene.seed", std::vector<std::int64_t>{static_cast<std::int64_t>(scene_.seed)});
+  checkpoint.set("program.version", std::string(version()));
+  checkpoint.set("program.commit", std::string(commit()));
+  checkpoint.set("program.backend", describe_backend());
+  return checkpoint;
+}
+
+void CheckpointKeeper::rehearse() const {
+  if (!control_.has_walltime()) return;
+  // A segment, the index and the XDMF come with a checkpoint, each with its own wait for the disk.
+  constexpr double n_files = 4.0;
+  const auto start = WallClock::now();
+  folder_.rehearse(make_checkpoint());
+  control_.note_checkpoint(n_files * seconds_since(start));
+}
+
 void CheckpointKeeper::save() {
   const State& state = memory_.state;
   if (step_of_last_ == state.step) return;
@@ -48,16 +71,7 @@ void CheckpointKeeper::save() {
   TrajectoryWriter& trajectory = memory_.recorder.trajectory();
   const double trajectory_seconds = trajectory.seconds_spent();
   trajectory.close_segment();
-  memory_.ledger.keep_seconds();
-  Checkpoint checkpoint;
-  MemorySaver saver(checkpoint);
-  memory_.visit(saver);
-  write_trajectory_end(checkpoint, trajectory.end());
-  checkpoint.set("scene.xxh3", scene_checksum_);
-  checkpoint.set("scene.seed", std::vector<std::int64_t>{static_cast<std::int64_t>(scene_.seed)});
-  checkpoint.set("program.version", std::string(version()));
-  checkpoint.set("program.commit", std::string(commit()));
-  checkpoint.set("program.backend", describe_backend());
+  const Checkpoint checkpoint = make_checkpoint();
   memory_.ledger.parts().megabytes += 1e-6 * static_cast<double>(folder_.write(checkpoint, scene_.checkpoint.keep));
   step_of_last_ = state.step;
   last_ = WallClock::now();

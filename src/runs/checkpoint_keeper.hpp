@@ -35,6 +35,10 @@ class CheckpointKeeper {
 
   void restore(const Checkpoint& checkpoint);
 
+  /// In a run whose wall time is limited: measures how long a checkpoint takes on this disk before there is one, so
+  /// that time is kept free for it from the start.
+  void rehearse() const;
+
   /// Puts frames and then a checkpoint on disk, unless there is one of this step already.
   void save();
 
@@ -47,6 +51,8 @@ class CheckpointKeeper {
   std::filesystem::path newest() const { return folder_.path_of(folder_.last_number()); }
 
  private:
+  Checkpoint make_checkpoint() const;
+
   const SceneConfig& scene_;
   std::string scene_checksum_;
   CheckpointFolder folder_;

@@ -5,12 +5,15 @@
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
 
+#include "runs/memory_limit.hpp"
+
 #include <utility>
 
 namespace skein {
 
 PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   SceneReading reading = read_scene(file, overrides, find_mobility_problems);
+  check_memory(reading.config);
   try {
     reading.config = resolve_times(place_fibers(reading.config));
     check_overlap(make_fibers(reading.config.fibers), reading.config.seed);

@@ -16,7 +16,8 @@ struct PlacedScene {
 };
 
 /// Reads a scene and puts its fibers where they belong. What goes with the scene's time scale has become a number.
-/// @throws what read_scene and write_readable_scene throw; SceneError where fibers find no place or overlap
+/// @throws what read_scene and write_readable_scene throw; ResourceError if there is not the memory for it; SceneError
+/// where fibers find no place or overlap
 PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 }  // namespace skein

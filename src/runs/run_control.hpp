@@ -5,6 +5,7 @@
 #include "runs/stop_signals.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -36,6 +37,9 @@ class RunControl {
   /// old, and when the wall time would not suffice for a checkpoint any more.
   void check_within_step();
   static constexpr double patience = 3.0;  ///< seconds
+
+  /// True if the run has to end in time, with a checkpoint.
+  bool has_walltime() const { return std::isfinite(max_walltime_); }
 
   /// How long a checkpoint took: time for a slower one is kept free.
   void note_checkpoint(double seconds);

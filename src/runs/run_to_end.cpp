@@ -33,7 +33,7 @@ ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& path,
   const ResumePoint point = find_resume_point(folder);
   if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) return ExitCode::done;
   RunControl control(max_walltime);
-  return simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener);
+  return simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener, lock.note());
 }
 
 }  // namespace skein

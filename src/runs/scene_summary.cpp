@@ -1,5 +1,6 @@
 #include "runs/scene_summary.hpp"
 
+#include <skein/core/terminal_text.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/spring_network.hpp>
@@ -74,7 +75,7 @@ std::string describe_scene(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
   const double rate = summarize_flow(scene.flows).typical_rate;
   std::string text;
-  if (!scene.title.empty()) text += scene.title + "\n";
+  if (!scene.title.empty()) text += make_terminal_line(scene.title) + "\n";
   text += fmt::format("{} fiber{}, {} nodes\n", fibers.size(), fibers.size() == 1 ? "" : "s", count_nodes(fibers));
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f)
     text += describe_fiber(scene, rate, fibers[f], static_cast<int>(f));

@@ -84,6 +84,7 @@ ExitCode Simulation::run() {
                                      {"mobility", physics_.mobility->describe()},
                                      {"backend", describe_backend()}});
   recorder_.begin(state_);
+  checkpoints_.rehearse();
   try {
     advance_to_end();
   } catch (const Interruption&) {  // the step is given up, and all is as it was before it

@@ -4,8 +4,9 @@
 
 namespace skein {
 
-/// While it lives, SIGINT, SIGTERM and SIGUSR1 are counted instead of ending the process, and a closed stderr or a
-/// limit on file sizes make writes fail instead. One at a time.
+/// While it lives, what users, terminals and batch systems end a process with (SIGINT, SIGTERM, SIGHUP, SIGXCPU,
+/// SIGUSR1, SIGUSR2, SIGALRM) is counted instead. A SIGHUP that was ignored before, as nohup does, stays so. One at a
+/// time.
 class StopSignals {
  public:
   StopSignals();
@@ -17,7 +18,7 @@ class StopSignals {
   const char* name() const;  ///< "SIGTERM": the last one's
 
  private:
-  static constexpr int n_signals = 5;
+  static constexpr int n_signals = 7;
   struct sigaction old_actions_[n_signals];
 };
 

@@ -1,6 +1,7 @@
 #include "scene_checks.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/scene/scene_size.hpp>
 
 #include "scene_numbers.hpp"
 #include "scene_value.hpp"
@@ -66,12 +67,6 @@ void check_placement(const PlacementConfig& placement, const SceneReader& reader
   else if (placement.kind == PlacementKind::grid && n.x * n.y * n.z > n_copies_allowed)
     reader.add(problems, "placement.grid",
                fmt::format("placement.grid asks for {:g} fibers, more than {:g}", n.x * n.y * n.z, n_copies_allowed));
-}
-
-/// Copies that placement makes of the fiber at this place of the list.
-double count_copies(const SceneConfig& scene, const std::size_t fiber) {
-  const double n_fibers = static_cast<double>(scene.fibers.size());
-  return std::max(0.0, std::ceil((count_fibers(scene) - static_cast<double>(fiber)) / n_fibers));
 }
 
 void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {

@@ -1,7 +1,9 @@
 #include "scene_numbers.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/scene/scene_size.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,6 +24,11 @@ double count_fibers(const SceneConfig& scene) {
       return placement.count;
   }
   throw Error(ExitCode::internal, "count_fibers knows no such kind of placement");
+}
+
+double count_copies(const SceneConfig& scene, const std::size_t fiber) {
+  const auto n_fibers = static_cast<double>(scene.fibers.size());
+  return std::max(0.0, std::ceil((count_fibers(scene) - static_cast<double>(fiber)) / n_fibers));
 }
 
 }  // namespace skein

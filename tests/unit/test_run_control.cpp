@@ -28,7 +28,9 @@ TEST(RunControl, WantsNothingByItself) {
 
 TEST(RunControl, TheFirstSignalLetsTheStepFinishTheSecondDoesNot) {
   for (const auto& [signal, name] :
-       {std::pair(SIGINT, "SIGINT"), std::pair(SIGTERM, "SIGTERM"), std::pair(SIGUSR1, "SIGUSR1")}) {
+       {std::pair(SIGINT, "SIGINT"), std::pair(SIGTERM, "SIGTERM"), std::pair(SIGUSR1, "SIGUSR1"),
+        std::pair(SIGUSR2, "SIGUSR2"), std::pair(SIGHUP, "SIGHUP"), std::pair(SIGXCPU, "SIGXCPU"),
+        std::pair(SIGALRM, "SIGALRM")}) {
     RunControl control(no_limit);
     std::raise(signal);
     EXPECT_NO_THROW(control.check_within_step());
@@ -39,6 +41,18 @@ TEST(RunControl, TheFirstSignalLetsTheStepFinishTheSecondDoesNot) {
   }
   RunControl next(no_limit);
   EXPECT_EQ(next.look(0.0), Demand::none);
+}
+
+TEST(RunControl, AHangupThatWasIgnoredStaysSo) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  {
+    RunControl control(no_limit);
+    std::raise(SIGHUP);
+    EXPECT_EQ(control.look(0.0), Demand::none);
+    std::raise(SIGTERM);
+    EXPECT_EQ(control.look(0.0), Demand::stop);
+  }
+  EXPECT_EQ(std::signal(SIGHUP, before), SIG_IGN);
 }
 
 TEST(RunControl, ALongStepIsGivenUpAfterSomePatience) {

@@ -4,11 +4,17 @@
 
 namespace skein {
 
+/// Kokkos has places for so many.
+inline constexpr int most_host_threads = 512;
+
 /// Kokkos for the lifetime of the object. Created first in main and in the tests' main; nothing that holds device
 /// memory may outlive it.
 class Runtime {
  public:
-  /// @param threads  host threads; 0 leaves the choice to OMP_NUM_THREADS or the machine.
+  /// @param threads  host threads; 0 leaves the choice to KOKKOS_NUM_THREADS, OMP_NUM_THREADS or the machine
+  /// @throws Error(usage) if the number, or a setting of the environment, cannot work; ResourceError if the
+  /// system
+  ///         does not start so many threads
   explicit Runtime(int threads = 0);
   ~Runtime();
   Runtime(const Runtime&) = delete;

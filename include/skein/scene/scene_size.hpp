@@ -1,0 +1,12 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+#include <cstddef>
+
+namespace skein {
+
+/// Copies that placement is going to make of the fiber at this place of the list.
+double count_copies(const SceneConfig& scene, std::size_t fiber);
+
+}  // namespace skein
