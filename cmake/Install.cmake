@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS skein RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py")
+install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py" PATTERN "matplotlibrc")
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
 
 # The program writes its own completion. Where it does not start, as one for another machine, there is none.

@@ -1,9 +1,11 @@
 #include "cli/cli.hpp"
+#include "cli/process_start.hpp"
 #include "cli/thread_waiting.hpp"
 #include "cli/verbs.hpp"
 #include "runs/test_order.hpp"
 
 int main(int argc, char** argv) {
+  skein::prepare_process();
   skein::limit_thread_spinning(argv);
   skein::install_kill_order();
   return skein::run_command_line(

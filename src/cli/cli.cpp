@@ -1,6 +1,7 @@
 #include "cli/cli.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/core/resource_error.hpp>
 
 #include "cli/parser.hpp"
 #include "cli/terminal.hpp"
@@ -54,7 +55,8 @@ int run_command_line(const int n_arguments, char** arguments, const std::vector<
     print_error(error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    return report_internal("there is not enough memory");
+    print_error("there is not enough memory; ask for fewer nodes, frames or points, or use a machine with more");
+    return static_cast<int>(ResourceError::exit_code);
   } catch (const std::exception& error) {
     return report_internal(error.what());
   }

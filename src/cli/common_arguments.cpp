@@ -1,5 +1,7 @@
 #include "cli/common_arguments.hpp"
 
+#include <skein/arrays/runtime.hpp>
+
 namespace skein {
 
 Argument make_scene_argument(std::string* scene) {
@@ -15,9 +17,8 @@ Argument make_overrides_option(std::vector<std::string>* overrides) {
 }
 
 Argument make_threads_option(int* threads) {
-  constexpr int n_threads_allowed = 4096;
   return make_argument("--threads", threads, "N", "Threads of the host (default: OMP_NUM_THREADS or all cores)")
-      .within(1, n_threads_allowed);
+      .within(1, most_host_threads);
 }
 
 Argument make_walltime_option(double* seconds) {

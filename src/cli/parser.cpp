@@ -5,10 +5,13 @@
 #include <skein/core/error.hpp>
 #include <skein/scene/nearest_name.hpp>
 
+#include "cli/terminal.hpp"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -22,6 +25,15 @@ std::string check_duration(const std::string& text) {
   return "'" + text + "' is no duration; write seconds, or 90s, 30m, 2h, 1d, 1:30:00";
 }
 
+// Nearly always a variable of the shell that is not set; the folder, file or key that it stands for is not the one
+// meant.
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "nothing is written there; is a variable of the shell not set?" : "";
+}
+
+template <class Value>
+constexpr bool is_text = std::is_same_v<Value, std::string> || std::is_same_v<Value, std::filesystem::path>;
+
 /// Adds an argument to the parser's verb, as its target asks for.
 class AddArgument {
  public:
@@ -34,7 +46,9 @@ class AddArgument {
     const auto store = [duration](const std::string& text) { *duration.seconds = *parse_duration(text); };
     return verb_.add_option_function<std::string>(argument_.names, store, argument_.meaning)->check(check_duration);
   }
-  CLI::Option* operator()(std::vector<std::string>* texts) const { return add(texts)->allow_extra_args(false); }
+  CLI::Option* operator()(std::vector<std::string>* texts) const {
+    return add(texts)->allow_extra_args(false)->check(refuse_empty);
+  }
   CLI::Option* operator()(std::vector<double>* numbers) const {
     CLI::Option* option = add(numbers)->delimiter(',');
     return argument_.count > 0 ? option->expected(argument_.count) : option;
@@ -42,6 +56,7 @@ class AddArgument {
   template <class Value>
   CLI::Option* operator()(Value* value) const {
     CLI::Option* option = add(value);
+    if constexpr (is_text<Value>) option->check(refuse_empty);
     if constexpr (std::is_arithmetic_v<Value>) {
       if (const auto& bounds = argument_.bounds)
         option->check(CLI::Range(static_cast<Value>(bounds->first), static_cast<Value>(bounds->second)));
@@ -103,6 +118,16 @@ void check_verb_name(const int n_arguments, char** arguments, const std::vector<
               fmt::format("unknown verb '{}'{}\n'skein --help' lists the verbs", first, suggest(first, names)));
 }
 
+// The parser would take the next word for what "--output=" does not say.
+void check_values(const int n_arguments, char** arguments) {
+  for (int i = 1; i < n_arguments; ++i) {
+    const std::string word = arguments[i];
+    if (word == "--") return;
+    if (word.starts_with("--") && word.find('=') == word.size() - 1)
+      throw Error(ExitCode::usage, fmt::format("{} {}", word, refuse_empty("")));
+  }
+}
+
 std::vector<std::string> list_flags(const CLI::App& app) {
   std::vector<std::string> flags;
   for (const CLI::Option* option : app.get_options()) {
@@ -135,6 +160,7 @@ std::function<int()> parse_command_line(const int n_arguments, char** arguments,
   describe_program(app);
   for (const Verb& verb : verbs) add_verb(app, verb);
   check_verb_name(n_arguments, arguments, verbs);
+  check_values(n_arguments, arguments);
   try {
     app.parse(n_arguments, arguments);
   } catch (const CLI::ParseError& error) {
@@ -142,7 +168,7 @@ std::function<int()> parse_command_line(const int n_arguments, char** arguments,
     std::ostringstream text;  // of --help or --version
     app.exit(error, text, text);
     return [text = text.str()] {
-      fmt::print("{}", text);
+      print_result(text);
       return 0;
     };
   }

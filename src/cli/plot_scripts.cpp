@@ -30,7 +30,9 @@ fs::path find_script(const std::string& name) {
 }  // namespace
 
 int run_plot_script(const std::string& name, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), find_script(name).string());
+  // Isolated: PYTHONPATH and PYTHONHOME, which module systems set for another Python, do not matter, nor does what lies
+  // in the current folder or the user's own.
+  arguments.insert(arguments.begin(), {"-I", find_script(name).string()});
   const int code = run_program(SKEIN_PYTHON, arguments);
   // The interpreter's own codes, such as 1 after an uncaught exception, would say something else here.
   return code == 0 || code >= static_cast<int>(ExitCode::usage) ? code : static_cast<int>(ExitCode::internal);

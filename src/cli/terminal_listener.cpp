@@ -1,6 +1,6 @@
 #include "cli/terminal_listener.hpp"
 
-#include <cstdio>
+#include "cli/terminal.hpp"
 
 namespace skein {
 
@@ -11,7 +11,7 @@ void TerminalListener::begin(const double time, const double end_time, const std
 void TerminalListener::say(const std::string& text) {
   if (quiet_) return;
   if (progress_) progress_->clear();
-  std::fprintf(stderr, "%s\n", text.c_str());
+  print_message(text);
 }
 
 void TerminalListener::advance(const double time, const std::int64_t evaluations) {

@@ -1,10 +1,9 @@
 #include <skein/arrays/runtime.hpp>
 
 #include "cli/common_arguments.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "runs/run_analysis.hpp"
-
-#include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
@@ -21,10 +20,11 @@ struct AnalyzeOptions {
 
 int print_analysis(const AnalyzeOptions& options) {
   const RunFolder folder = RunFolder::open(options.folder);
+  if (!options.output.empty()) check_output(options.output, folder);
   const Runtime runtime(options.threads);
   const RunAnalysis analysis = analyze_run(folder, !options.no_forces);
   write_analysis(analysis, options.output.empty() ? folder.analysis() : std::filesystem::path(options.output));
-  fmt::print("{}", options.json ? describe_analysis_as_json(analysis) : describe_analysis(analysis));
+  print_result(options.json ? describe_analysis_as_json(analysis) : describe_analysis(analysis));
   return 0;
 }
 

@@ -1,8 +1,7 @@
 #include <skein/scene/scene_reference.hpp>
 
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-
-#include <fmt/format.h>
 
 #include <memory>
 
@@ -17,7 +16,7 @@ Verb make_defaults_verb() {
           "  skein defaults > scene.toml\n"
           "  skein defaults --markdown > docs/scene.md",
           [as_markdown] {
-            fmt::print("{}", *as_markdown ? write_markdown_reference() : write_commented_defaults());
+            print_result(*as_markdown ? write_markdown_reference() : write_commented_defaults());
             return 0;
           }};
 }

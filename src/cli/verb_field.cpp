@@ -22,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace skein {
@@ -106,9 +107,22 @@ std::vector<Vec3> list_points(const ImageGrid& grid) {
   return points;
 }
 
+void check_outputs(const FieldOptions& options, const RunFolder& folder) {
+  check_output(options.output, folder);
+  std::error_code ignored;  // where one is not there
+  if (!options.at.empty() && std::filesystem::equivalent(options.at, options.output, ignored))
+    throw Error(ExitCode::cannot_create,
+                fmt::format("'{}' holds the points and is not replaced; name another output.", options.at));
+  if (options.picture.empty()) return;
+  check_output(options.picture, folder);
+  if (std::filesystem::path(options.picture).lexically_normal() == options.output.lexically_normal())
+    throw Error(ExitCode::usage, fmt::format("'{}' cannot be both the field and its picture", options.picture));
+}
+
 int write_field(const FieldOptions& options) {
-  check_options(options);
   const RunFolder folder = RunFolder::open(options.folder);
+  check_outputs(options, folder);
+  check_options(options);
   const SceneConfig scene = read_scene(folder.scene(), {}).config;
   const Runtime runtime(options.threads);
   const Frame frame = read_frame(TrajectoryReader(folder, scene), options);
@@ -125,7 +139,8 @@ int write_field(const FieldOptions& options) {
     write_points(options.output, frame.time, points, field);
   const std::string count = is_grid ? fmt::format("{} x {} x {}", grid.n_points[0], grid.n_points[1], grid.n_points[2])
                                     : fmt::format("{}", points.size());
-  fmt::print(stderr, "t = {:g}: {} points in '{}'; {}\n", frame.time, count, options.output.string(), field.method);
+  print_message(
+      fmt::format("t = {:g}: {} points in '{}'; {}", frame.time, count, options.output.string(), field.method));
   if (options.picture.empty()) return 0;
   return run_plot_script("plot_field.py", {std::filesystem::absolute(options.folder).string(),
                                            std::filesystem::absolute(options.output).string(),

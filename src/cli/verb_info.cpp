@@ -1,10 +1,12 @@
 #include <skein/core/json.hpp>
+#include <skein/core/terminal_text.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "cli/common_arguments.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 
 #include <fmt/format.h>
@@ -22,9 +24,10 @@ struct InfoOptions {
 };
 
 void print_lines(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
-  fmt::print("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nframes: {}\nsteps: {}\nsegments: {}\n", summary.title,
-             summary.status, scene, mobility, summary.frames, summary.steps, summary.segments);
-  if (std::isfinite(summary.last_time)) fmt::print("last time: {}\n", summary.last_time);
+  print_result(fmt::format("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nframes: {}\nsteps: {}\nsegments: {}\n",
+                           make_terminal_line(summary.title), make_terminal_line(summary.status),
+                           make_terminal_line(scene), mobility, summary.frames, summary.steps, summary.segments));
+  if (std::isfinite(summary.last_time)) print_result(fmt::format("last time: {}\n", summary.last_time));
 }
 
 void print_json(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
@@ -32,7 +35,7 @@ void print_json(const std::string& scene, const std::string& mobility, const Run
   json.begin_object().member("title", summary.title).member("status", summary.status);
   json.member("scene", scene).member("mobility", mobility).member("frames", summary.frames);
   json.member("steps", summary.steps).member("segments", summary.segments).member("last_time", summary.last_time);
-  fmt::print("{}\n", json.end_object().take());
+  print_result(json.end_object().take() + "\n");
 }
 
 int print_info(const InfoOptions& options) {

@@ -3,6 +3,7 @@
 
 #include "cli/common_arguments.hpp"
 #include "cli/plot_scripts.hpp"
+#include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "studies/phases.hpp"
@@ -22,18 +23,18 @@ struct PhasesOptions {
   bool quiet = false, no_plots = false;
 };
 
-void print_result(const PhaseResult& result) {
-  fmt::print("{:<10.4g} {:<10.4g} {:<10} {}\n", result.length, result.elasto_viscous_number,
-             result.is_perturbed ? "perturbed" : "straight", name_of(result.summary.regime));
+void print_row(const PhaseResult& result) {
+  print_result(fmt::format("{:<10.4g} {:<10.4g} {:<10} {}\n", result.length, result.elasto_viscous_number,
+                           result.is_perturbed ? "perturbed" : "straight", name_of(result.summary.regime)));
   std::fflush(stdout);
 }
 
 int draw_phases(const PhasesOptions& options) {
   const auto points = list_phase_points(options.study);
   const Runtime runtime(options.threads);
-  fmt::print("{:<10} {:<10} {:<10} {}\n", "length", "mu_bar", "start", "regime");
+  print_result(fmt::format("{:<10} {:<10} {:<10} {}\n", "length", "mu_bar", "start", "regime"));
   TerminalListener listener(options.quiet);
-  if (run_phase_study(options.study, points, listener, print_result) == ExitCode::stopped)
+  if (run_phase_study(options.study, points, listener, print_row) == ExitCode::stopped)
     return static_cast<int>(ExitCode::stopped);
   if (options.no_plots) return 0;
   return run_plot_script("plot_phases.py", {std::filesystem::absolute(options.study.folder).string(), "--to-stderr"});

@@ -3,6 +3,7 @@
 
 #include "cli/common_arguments.hpp"
 #include "cli/plot_scripts.hpp"
+#include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "studies/reproduction.hpp"
@@ -46,7 +47,7 @@ int draw(const Reproduction& request) {
 
 int reproduce(const ReproduceOptions& options) {
   const ReproductionResult result = reproduce_asked(options);
-  fmt::print("{}", options.json ? describe_rows_as_json(result.rows) : describe_rows(result.rows));
+  print_result(options.json ? describe_rows_as_json(result.rows) : describe_rows(result.rows));
   std::fflush(stdout);
   if (!options.no_plots)
     if (const int failure = draw(options.request); failure != 0) return failure;

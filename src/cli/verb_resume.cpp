@@ -9,6 +9,7 @@
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
+#include "runs/memory_limit.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
 
@@ -48,21 +49,23 @@ std::string describe_point(const ResumePoint& point, const SceneConfig& scene) {
 
 int resume_run(const ResumeOptions& options) {
   const RunFolder folder = RunFolder::open_begun(options.folder);
+  const Runtime runtime(options.threads);  // before anything is changed: there may be no such threads
   const RunLock lock(folder);
+  if (!lock.note().empty()) print_warning(lock.note());
   const SceneConfig scene = read_scene(folder.scene(), {}).config;
+  check_memory(scene);
   const ResumePoint point = find_resume_point(folder);
   std::string what_happened;
   for (const std::string& rejected : point.rejected) what_happened += rejected + "; it was renamed to *.damaged\n";
   if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) {
     if (!what_happened.empty()) print_warning(what_happened);
-    fmt::print(stderr, "'{}' is done: t = {:g}, step {}; nothing is left to do.\n", options.folder, scene.time.end,
-               point.checkpoint->integer("state.step"));
+    print_message(fmt::format("'{}' is done: t = {:g}, step {}; nothing is left to do.", options.folder, scene.time.end,
+                              point.checkpoint->integer("state.step")));
     return 0;
   }
   if (point.checkpoint) what_happened += compare_programs(*point.checkpoint);
   if (!what_happened.empty()) print_warning(what_happened);
 
-  const Runtime runtime(options.threads);
   RunControl control(options.max_walltime);
   TerminalListener listener(options.quiet);
   return static_cast<int>(simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,

@@ -38,10 +38,18 @@ struct RunOptions {
 // An earlier run's folder is locked before anything in it is replaced; a new one as soon as it is there.
 RunFolder make_folder(const RunOptions& options, const std::string& scene_text, std::optional<RunLock>& lock) {
   std::error_code ignored;
-  if (options.overwrite && std::filesystem::exists(options.folder / "scene.toml", ignored))
-    lock.emplace(RunFolder::open_begun(options.folder));
+  if (options.overwrite && std::filesystem::exists(options.folder / "scene.toml", ignored)) {
+    const RunFolder earlier = RunFolder::open_begun(options.folder);
+    if (earlier.is_part(options.scene))
+      throw Error(ExitCode::cannot_create,
+                  fmt::format("the scene '{}' belongs to the run that --overwrite would remove; copy it to another "
+                              "folder first.",
+                              options.scene));
+    lock.emplace(earlier);
+  }
   RunFolder folder = RunFolder::create(options.folder, scene_text, options.overwrite);
   if (!lock) lock.emplace(folder);
+  if (!lock->note().empty()) print_warning(lock->note());
   return folder;
 }
 
@@ -51,7 +59,7 @@ int run_scene(const RunOptions& options) {
 
   const Runtime runtime(options.threads);
   if (options.dry_run) {
-    fmt::print("{}\n", describe_dry_run(placed.config));
+    print_result(describe_dry_run(placed.config) + "\n");
     return 0;
   }
   RunControl control(options.max_walltime);
@@ -65,23 +73,25 @@ int run_scene(const RunOptions& options) {
 
 Verb make_run_verb() {
   const auto options = std::make_shared<RunOptions>();
-  return {"run",
-          "Simulate a scene into a run folder",
-          {make_scene_argument(&options->scene),
-           make_argument("-o,--output", &options->folder, "DIR", "Run folder to make").require(),
-           make_overrides_option(&options->overrides),
-           make_flag("--overwrite", &options->overwrite, "Replace an earlier run in the folder"),
-           make_threads_option(&options->threads), make_walltime_option(&options->max_walltime),
-           make_flag("--dry-run", &options->dry_run, "Say what the run would take, write nothing"),
-           make_quiet_flag(&options->quiet)},
-          "Examples:\n"
-          "  skein run configs/tumbling.toml -o tumbling\n"
-          "  skein run configs/tumbling.toml -o longer --set fiber.sections=113 --set time.end=16.0\n"
-          "  skein run configs/tumbling.toml -o night --max-walltime 8h --threads 2\n"
-          "The exit code is 0 if the end was reached, 75 if the run was stopped and 'skein resume' can go on.\n"
-          "SIGINT, SIGTERM and SIGUSR1 stop it with a checkpoint, and so does a file STOP in the run folder; a file\n"
-          "OUTPUT_NOW there makes a checkpoint and puts all frames so far on disk.",
-          [options] { return run_scene(*options); }};
+  return {
+      "run",
+      "Simulate a scene into a run folder",
+      {make_scene_argument(&options->scene),
+       make_argument("-o,--output", &options->folder, "DIR", "Run folder to make").require(),
+       make_overrides_option(&options->overrides),
+       make_flag("--overwrite", &options->overwrite, "Replace an earlier run in the folder"),
+       make_threads_option(&options->threads), make_walltime_option(&options->max_walltime),
+       make_flag("--dry-run", &options->dry_run, "Say what the run would take, write nothing"),
+       make_quiet_flag(&options->quiet)},
+      "Examples:\n"
+      "  skein run configs/tumbling.toml -o tumbling\n"
+      "  skein run configs/tumbling.toml -o longer --set fiber.sections=113 --set time.end=16.0\n"
+      "  skein run configs/tumbling.toml -o night --max-walltime 8h --threads 2\n"
+      "The exit code is 0 if the end was reached, 75 if the run was stopped and 'skein resume' can go on.\n"
+      "Interrupts and what batch systems send (SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2, SIGALRM) stop it\n"
+      "with a checkpoint, and so does a file STOP in the run folder; a file OUTPUT_NOW there makes a checkpoint and\n"
+      "puts all frames so far on disk.",
+      [options] { return run_scene(*options); }};
 }
 
 }  // namespace skein

@@ -39,7 +39,7 @@ void print_json(const bool valid, const std::vector<Problem>& problems, const st
   json.begin_object().member("valid", valid);
   write_problems(json, "problems", problems);
   write_problems(json, "warnings", warnings);
-  fmt::print("{}\n", json.end_object().take());
+  print_result(json.end_object().take() + "\n");
 }
 
 int validate_scene(const ValidateOptions& options) {
@@ -56,8 +56,8 @@ int validate_scene(const ValidateOptions& options) {
     return 0;
   }
   for (const Problem& warning : scene.warnings) print_warning(warning.describe());
-  fmt::print("{}mobility: {}\n", describe_scene(scene.config),
-             describe_choice(choose_mobility(scene.config), scene.config));
+  print_result(fmt::format("{}mobility: {}\n", describe_scene(scene.config),
+                           describe_choice(choose_mobility(scene.config), scene.config)));
   return 0;
 }
 

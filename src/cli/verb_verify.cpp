@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/core/terminal_text.hpp>
 #include <skein/io/run_check.hpp>
 
 #include "cli/common_arguments.hpp"
@@ -16,15 +17,17 @@ namespace {
 int verify_run(const std::string& folder) {
   const RunCheck check = check_run(folder);
   for (const std::string& problem : check.problems) print_error(problem);
-  for (const std::string& note : check.notes) fmt::print(stderr, "skein: note: {}\n", note);
-  fmt::print("status: {}\nframes: {}\nsteps: {}\nsegments: {}\ncheckpoints: {}\nlast time: {}\n", check.status,
-             check.frames, check.records, check.segments, check.checkpoints, check.last_time);
+  for (const std::string& note : check.notes) print_note(note);
+  print_result(fmt::format("status: {}\nframes: {}\nsteps: {}\nsegments: {}\ncheckpoints: {}\nlast time: {}\n",
+                           make_terminal_line(check.status), check.frames, check.records, check.segments,
+                           check.checkpoints, check.last_time));
   if (!check.problems.empty()) {
-    fmt::print("verdict: damaged, {} problem{}\n", check.problems.size(), check.problems.size() == 1 ? "" : "s");
+    print_result(
+        fmt::format("verdict: damaged, {} problem{}\n", check.problems.size(), check.problems.size() == 1 ? "" : "s"));
     return static_cast<int>(ExitCode::damaged_data);
   }
-  fmt::print("certificate: {}\nverdict: whole, no gap, no frame twice, unchanged since it was written\n",
-             check.checksum);
+  print_result(fmt::format("certificate: {}\nverdict: whole, no gap, no frame twice, unchanged since it was written\n",
+                           make_terminal_line(check.checksum)));
   return 0;
 }
 

@@ -7,6 +7,7 @@ import contextlib
 import io
 import os
 import pathlib
+import resource
 import subprocess
 import sys
 import tempfile
@@ -235,10 +236,35 @@ def check_errors(script, folder):
     check_fails(script, 65, "/observables/energy", poor)
     (folder / "file").write_text("")
     check_fails(script, 73, "cannot be written", write_run(folder / "run"), "-o", folder / "file/plots")
-    if os.path.exists("/dev/full"):
-        (folder / "full").mkdir()
-        (folder / "full/shapes.png.partial").symlink_to("/dev/full")
-        check_fails(script, 74, "No space left", folder / "run", "-o", folder / "full")
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (1000, hard))  # stands for a full disk
+    check_fails(script, 74, "File too large", folder / "run", "-o", folder / "full")
+    resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    check(not list((folder / "full").iterdir()), "a half-written picture was left")
+
+
+def check_planted_links(script, folder):
+    """What somebody left where pictures are going to be written loses its name, and is not opened."""
+    run, pictures = write_run(folder / "run"), folder / "pictures"
+    pictures.mkdir()
+    (folder / "precious").write_text("precious")
+    (pictures / "shapes.png.partial").symlink_to(folder / "precious")
+    (pictures / "angle.png").symlink_to(folder / "precious")
+    os.mkfifo(pictures / "curvature.png.partial")
+    result = plot(script, run, "-o", pictures)
+    check(result.returncode == 0 and len(result.stdout.split()) == len(PICTURES), result.stderr)
+    check((folder / "precious").read_text() == "precious", "a planted link was followed")
+    check({path.name for path in pictures.iterdir()} == {f"{name}.png" for name in PICTURES}, "something is left")
+    read_picture(pictures / "angle.png")
+
+
+def check_messages():
+    """No control character of a title or a name reaches a terminal."""
+    from script import printable
+
+    check(printable("caf\u00e9 \u05d0 a\nb") == "caf\u00e9 \u05d0 a\nb", "letters are changed")
+    raw = os.fsdecode(b"\x1b[2J\x9b\r") + "\u009b\u202e\u2028"
+    check(printable(raw).isascii() and printable(raw).isprintable(), "a control character is let through")
 
 
 class LongRun:
@@ -280,10 +306,11 @@ def check_tangle(script, folder):
 
 def main():
     script = sys.argv[1]
-    for part in (check_complete_run, check_options, check_poor_runs, check_analysis_is_of_the_run, check_errors,
-                 check_tangle):
+    for part in (check_complete_run, check_planted_links, check_options, check_poor_runs, check_analysis_is_of_the_run,
+                 check_errors, check_tangle):
         with tempfile.TemporaryDirectory() as folder:
             part(script, pathlib.Path(folder))
+    check_messages()
 
 
 if __name__ == "__main__":

@@ -10,26 +10,9 @@ import json
 import os
 import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
-PROGRAM = SOURCES = None  # set from the arguments at the end
-
-DONE, USAGE, MISSING_INPUT, IO_ERROR, SCENE_ERROR = 0, 64, 66, 74, 78
-
-
-def skein(*arguments, cwd=None, **environment):
-    return subprocess.run(
-        [PROGRAM, *map(str, arguments)],
-        cwd=cwd,
-        env={**os.environ, **environment},
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        errors="replace",
-        timeout=60,
-    )
+from cli_case import DONE, IO_ERROR, MISSING_INPUT, PROGRAM, SCENE_ERROR, SOURCES, USAGE, InFreshFolder, main, skein
 
 
 def problem_lines(stderr):
@@ -39,22 +22,6 @@ def problem_lines(stderr):
 
 def matches(line, expected):
     return line.startswith(expected[:-3]) if expected.endswith("...") else line == expected
-
-
-class InFreshFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, content, name="scene.toml"):
-        path = self.folder / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return path
-
-    def validate_content(self, content, *arguments):
-        self.write(content)
-        return skein("validate", "scene.toml", *arguments, cwd=self.folder)
 
 
 class BadScenes(InFreshFolder):
@@ -331,9 +298,8 @@ class OnATerminal(InFreshFolder):
         self.assertIn("\033[1;31mskein:", self.error_on_terminal())
         self.assertNotIn("\033", self.error_on_terminal(NO_COLOR="1"))
         self.assertNotIn("\033", self.error_on_terminal(TERM="dumb"))
-        self.assertNotIn("\033", skein("rnu", TERM="xterm").stderr)
+        self.assertNotIn("\033", skein("rnu", environment={"TERM": "xterm"}).stderr)
 
 
 if __name__ == "__main__":
-    PROGRAM, SOURCES = sys.argv[1], pathlib.Path(sys.argv[2])
-    unittest.main(argv=sys.argv[:1])
+    main()

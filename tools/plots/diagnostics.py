@@ -13,7 +13,7 @@ REGIMES = ["tumble", "C", "S", "snake", "coil", "three-dimensional"]
 
 def open_diagnostics(run):
     """diagnostics.h5 of a run; it must be of the very frames that the run has."""
-    path = os.path.join(run.folder, "analysis", "diagnostics.h5")
+    path = os.path.join(run.tables, "diagnostics.h5")
     if not os.path.isfile(path):
         raise Nothing(f"there is no {path}: run 'skein analyze' first")
     try:

@@ -1,25 +1,47 @@
 """The fibers in motion, as MP4 by ffmpeg: the x-y plane, tubes of their true radius."""
 
 import os
-import shutil
+import subprocess
 
+import matplotlib
 import matplotlib.animation
 import matplotlib.pyplot as plt
 import numpy as np
 
 import shapes
 import style
-from run_reader import PlotError, MISSING
+from output_file import replacing
+from run_reader import IO_ERROR, MISSING, PlotError, write_error
 
 FRAMES_PER_SECOND = 25
 MAX_FRAMES = 750  # half a minute
 MOVIE_DPI = 150
 
 
+def find_ffmpeg():
+    """By the folders of PATH that are named from the root: what lies in the current folder may be somebody else's."""
+    for folder in os.environ.get("PATH", os.defpath).split(os.pathsep):
+        program = os.path.join(folder, "ffmpeg")
+        if os.path.isabs(folder) and os.path.isfile(program) and os.access(program, os.X_OK):
+            return program
+    raise PlotError(MISSING, "a movie needs ffmpeg: tools/setup.sh --with-movies installs it")
+
+
 def save(run, folder):
     """@returns the movie's path"""
-    if shutil.which("ffmpeg") is None:
-        raise PlotError(MISSING, "a movie needs ffmpeg: tools/setup.sh --with-movies installs it")
+    matplotlib.rcParams["animation.ffmpeg_path"] = find_ffmpeg()
+    path = os.path.join(folder, "movie.mp4")
+    try:
+        with replacing(path) as partial:
+            draw(run, partial)
+    except subprocess.CalledProcessError as error:
+        raise PlotError(IO_ERROR, f"{path} cannot be written: ffmpeg ended with {error.returncode}") from None
+    except OSError as error:
+        raise write_error(path, error) from None
+    return path
+
+
+def draw(run, path):
     stride = -(-len(run.frame_times) // MAX_FRAMES)
     frames = range(0, len(run.frame_times), stride)
     lines = [run.centreline(frame).astype(float) for frame in frames]
@@ -28,9 +50,8 @@ def save(run, folder):
     height = float(np.clip(width * size[1] / size[0], 1.6, 6.0)) + 0.9
     figure = plt.figure(figsize=(round(width * MOVIE_DPI / 2) * 2 / MOVIE_DPI, round(height * MOVIE_DPI / 2) * 2 / MOVIE_DPI))
     panel = figure.add_axes([0.1, 0.45 / height, 0.87, (height - 0.8) / height])
-    path = os.path.join(folder, "movie.mp4")
     writer = matplotlib.animation.FFMpegWriter(fps=FRAMES_PER_SECOND, codec="libx264",
-                                               extra_args=["-pix_fmt", "yuv420p", "-crf", "18"])
+                                               extra_args=["-pix_fmt", "yuv420p", "-crf", "18", "-f", "mp4"])
     with writer.saving(figure, path, MOVIE_DPI):
         for frame, line, corner in zip(frames, lines, corners):
             panel.clear()
@@ -45,4 +66,3 @@ def save(run, folder):
             shapes.add_tubes(panel, run, line, points, lambda f, _: style.COLOURS[f % len(style.COLOURS)])
             writer.grab_frame()
     plt.close(figure)
-    return path

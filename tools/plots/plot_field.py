@@ -7,10 +7,16 @@ import os
 import re
 import sys
 
+sys.dont_write_bytecode = True  # the sources, or the installed program, are no place for caches
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which Python's isolated mode leaves out
+
+import isolation  # noqa: F401, first
+
 import numpy as np
 
 import style
 from run_reader import DAMAGED, PlotError, Run
+from script import attempt, print_path
 from shapes import add_tubes
 from style import plt
 
@@ -77,22 +83,20 @@ def draw(run, x, y, time, fields):
     return figure
 
 
-def main():
-    folder, image, picture = sys.argv[1:]
+def draw_file(folder, image, picture):
+    run = Run(folder)
     try:
-        run = Run(folder)
-        try:
-            content = read_image(image)
-        except (OSError, ValueError, AttributeError) as error:
-            raise PlotError(DAMAGED, f"{image} cannot be read: {error}") from None
-        name, extension = os.path.splitext(os.path.basename(picture))
-        if extension not in (".png", ".pdf", ".svg"):
-            raise PlotError(USAGE, f"{picture}: the name of a picture ends in .png, .pdf or .svg")
-        print(style.save(draw(run, *content), os.path.dirname(picture), name, extension[1:]), flush=True)
-    except PlotError as error:
-        print(f"skein: {error}", file=sys.stderr)
-        return error.code
-    return 0
+        content = read_image(image)
+    except (OSError, ValueError, AttributeError) as error:
+        raise PlotError(DAMAGED, f"{image} cannot be read: {error}") from None
+    name, extension = os.path.splitext(os.path.basename(picture))
+    if extension not in (".png", ".pdf", ".svg"):
+        raise PlotError(USAGE, f"{picture}: the name of a picture ends in .png, .pdf or .svg")
+    print_path(style.save(draw(run, *content), os.path.dirname(picture), name, extension[1:]))
+
+
+def main():
+    return attempt(lambda: draw_file(*sys.argv[1:]))
 
 
 if __name__ == "__main__":

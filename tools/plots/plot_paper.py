@@ -5,7 +5,10 @@ import argparse
 import os
 import sys
 
-sys.dont_write_bytecode = True
+sys.dont_write_bytecode = True  # the sources, or the installed program, are no place for caches
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which Python's isolated mode leaves out
+
+import isolation  # noqa: F401, first
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,7 +19,8 @@ import tangle
 import timings
 from diagnostics import open_diagnostics
 from kymograph import cell_edges
-from run_reader import Nothing, PlotError, Run
+from run_reader import Nothing, Run
+from script import attempt, print_path, say
 
 # The times of the paper's snapshots.
 ASPECT = 1.75  # of a snapshot
@@ -215,6 +219,19 @@ FIGURES = {"figure2": draw_snapshots, "figure3": draw_curvature, "figure4": draw
            "figure5": draw_long("L2280"), "figure6": tangle.draw, "figure7": draw_hooks}
 
 
+def draw_all(options):
+    suffix = "" if options.nodes == 18 else f"_{options.nodes}"
+    runs = open_runs(options.folder, suffix)
+    figures = {**FIGURES, "figure8": lambda _: timings.draw(options.folder)}
+    for name, draw in figures.items():
+        try:
+            figure = draw(runs)
+        except Nothing as reason:
+            say(f"{name} is not drawn: {reason}")
+            continue
+        print_path(style.save(figure, options.folder, name + suffix, options.format), options.to_stderr)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
     parser.add_argument("folder", help="of skein reproduce")
@@ -222,22 +239,7 @@ def main():
     parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
     parser.add_argument("--to-stderr", action="store_true", help="the pictures' paths go to stderr")
     options = parser.parse_args()
-    suffix = "" if options.nodes == 18 else f"_{options.nodes}"
-    try:
-        runs = open_runs(options.folder, suffix)
-        figures = {**FIGURES, "figure8": lambda _: timings.draw(options.folder)}
-        for name, draw in figures.items():
-            try:
-                figure = draw(runs)
-            except Nothing as reason:
-                print(f"{name} is not drawn: {reason}", file=sys.stderr)
-                continue
-            path = style.save(figure, options.folder, name + suffix, options.format)
-            print(path, file=sys.stderr if options.to_stderr else sys.stdout)
-    except PlotError as error:
-        print(f"plot_paper: {error}", file=sys.stderr)
-        return error.code
-    return 0
+    return attempt(lambda: draw_all(options))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,10 @@ import csv
 import os
 import sys
 
-sys.dont_write_bytecode = True
+sys.dont_write_bytecode = True  # the sources, or the installed program, are no place for caches
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which Python's isolated mode leaves out
+
+import isolation  # noqa: F401, first
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,6 +17,7 @@ import numpy as np
 import style
 from diagnostics import REGIMES
 from run_reader import MISSING, PlotError
+from script import attempt, print_path
 
 SERIES = (("straight at first", "o", style.COLOURS[0]), ("perturbed", "D", style.COLOURS[1]))
 
@@ -72,20 +76,18 @@ def add_numbers(panel, lengths, numbers):
     axis.set_xlabel(r"elasto-viscous number $8\pi\mu\dot\gamma L^4/(c\,EI)$, $c=\ln(4e/\rho^2)$")
 
 
+def draw_table(options):
+    figure = draw(read_table(os.path.join(options.folder, "phases.csv")))
+    print_path(style.save(figure, options.folder, "phases", options.format), options.to_stderr)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
     parser.add_argument("folder", help="of skein phases")
     parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
     parser.add_argument("--to-stderr", action="store_true", help="the picture's path goes to stderr")
     options = parser.parse_args()
-    try:
-        figure = draw(read_table(os.path.join(options.folder, "phases.csv")))
-        path = style.save(figure, options.folder, "phases", options.format)
-    except PlotError as error:
-        print(f"plot_phases: {error}", file=sys.stderr)
-        return error.code
-    print(path, file=sys.stderr if options.to_stderr else sys.stdout)
-    return 0
+    return attempt(lambda: draw_table(options))
 
 
 if __name__ == "__main__":

@@ -6,8 +6,11 @@ import os
 import sys
 
 sys.dont_write_bytecode = True  # the sources, or the installed program, are no place for caches
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which Python's isolated mode leaves out
 
 try:
+    import isolation  # noqa: F401, first
+
     import angle
     import defects
     import energy
@@ -18,10 +21,11 @@ try:
     import shapes
     import style
     from run_reader import DAMAGED, Nothing, PlotError, Run, write_error
+    from script import attempt, print_path, say
 except ImportError as missing:
     sys.exit(f"skein plot: {missing}: install python3-matplotlib and python3-h5py")
 
-USAGE, INTERNAL, STOPPED = 64, 70, 75
+USAGE = 64
 PICTURES = {"shapes": shapes, "angle": angle, "curvature": kymograph, "energy": energy, "extrema": extrema,
             "power": power, "defects": defects}
 
@@ -43,6 +47,7 @@ def parse_arguments():
     parser.add_argument("folder", metavar="DIR", help="run folder")
     parser.add_argument("--times", type=parse_times, metavar="T1,T2,...", help="draw the frames nearest to these times")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="folder for the pictures (default: DIR/plots)")
+    parser.add_argument("--tables", metavar="FOLDER", help="what `skein analyze` wrote (default: DIR/analysis)")
     parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
     parser.add_argument("--movie", action="store_true", help="also movie.mp4; needs ffmpeg")
     options = parser.parse_args()
@@ -51,12 +56,8 @@ def parse_arguments():
     return options
 
 
-def say(text):
-    print(f"skein plot: {text}", file=sys.stderr)
-
-
 def draw_all(options):
-    run = Run(options.folder)
+    run = Run(options.folder, options.tables)
     try:
         os.makedirs(options.output, exist_ok=True)
     except OSError as error:
@@ -72,27 +73,14 @@ def draw_all(options):
         for note in options.notes:
             say(note)
         options.notes.clear()
-        print(style.save(figure, options.output, name, options.format), flush=True)
+        print_path(style.save(figure, options.output, name, options.format))
     if options.movie:
-        print(movie.save(run, options.output), flush=True)
+        print_path(movie.save(run, options.output))
 
 
 def main():
     options = parse_arguments()
-    try:
-        draw_all(options)
-    except PlotError as error:
-        say(error)
-        return error.code
-    except KeyboardInterrupt:
-        say("interrupted")
-        return STOPPED
-    except Exception as error:  # a bug: one line for the user; SKEIN_DEBUG=1 shows where
-        if os.environ.get("SKEIN_DEBUG"):
-            raise
-        say(f"internal error: {type(error).__name__}: {error}")
-        return INTERNAL
-    return 0
+    return attempt(lambda: draw_all(options))
 
 
 if __name__ == "__main__":

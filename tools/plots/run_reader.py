@@ -29,8 +29,10 @@ class Nothing(Exception):
 class Run:
     """Datasets are read in slices, on demand: a run may be far larger than the memory."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, tables=None):
+        """@param tables  folder of what `skein analyze` wrote; DIR/analysis without"""
         self.folder = folder
+        self.tables = tables or os.path.join(folder, "analysis")
         self.path = os.path.join(folder, "trajectory.h5")
         if not os.path.isdir(folder):
             raise PlotError(MISSING, f"the run folder {folder} is not there")
@@ -126,6 +128,6 @@ class Run:
 
 
 def write_error(path, error):
-    full = (errno.ENOSPC, errno.EDQUOT, errno.EIO)
+    full = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
     code = IO_ERROR if error.errno in full else CANNOT_CREATE
     return PlotError(code, f"{path} cannot be written: {error.strerror or error}")

@@ -10,6 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from output_file import write_whole
 from run_reader import write_error
 
 WIDTH = 7.2  # inches, of a page of two columns
@@ -119,13 +120,8 @@ def save(figure, folder, name, file_format):
     image = io.BytesIO()
     figure.savefig(image, format=file_format)
     plt.close(figure)
-    partial = f"{path}.partial"
     try:
-        with open(partial, "wb") as file:
-            file.write(image.getvalue())
-        os.replace(partial, path)
+        write_whole(path, image.getvalue())
     except OSError as error:
-        if os.path.isfile(partial):
-            os.remove(partial)
         raise write_error(path, error) from None
     return path
