@@ -72,6 +72,7 @@ class Descriptors(InFreshFolder):
         for closed in ((0,), (1,), (2,), (1, 2), (0, 1, 2)):
             with self.subTest(closed=closed):
                 process = subprocess.run([PROGRAM, "run", "scene.toml", "-o", "run", "--overwrite"], cwd=self.folder,
+                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                          preexec_fn=lambda: [os.close(number) for number in closed], timeout=60)
                 self.assertEqual(process.returncode, DONE)
                 for line in (self.folder / "run/events.jsonl").read_text().splitlines():

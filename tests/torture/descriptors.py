@@ -10,6 +10,7 @@ from run_files import differences, final_state
 
 def call(program, command, closed):
     result = subprocess.run([str(word) for word in command], env=program.environment(), timeout=120,
+                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                             preexec_fn=lambda: [os.close(number) for number in closed])
     return result.returncode
 
