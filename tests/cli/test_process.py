@@ -23,6 +23,9 @@ EVIL = "a\033]0;b\007\033[2Jc\u009b31md\u202ee\x7f"
 UNSEEN = set(range(0x20)) - {0x0A, 0x09} | set(range(0x7F, 0xA0)) | {0x202E}
 
 
+ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1"}
+
+
 def without_settings(**more):
     """No variable that says anything about threads."""
     return {**{name: None for name in os.environ if name.startswith(("OMP_", "GOMP_", "KOKKOS_"))}, **more}
@@ -33,7 +36,7 @@ class Signals(InFreshFolder):
         self.write(LONG_SCENE, "long.toml")
         shutil.rmtree(self.folder / "run", ignore_errors=True)
         process = subprocess.Popen([PROGRAM, "run", "long.toml", "-o", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=before)
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=before, env=ONE_THREAD)
         self.addCleanup(process.kill)
         while not (self.folder / "run/trajectory.xdmf").exists() and process.poll() is None:
             time.sleep(0.01)
@@ -73,7 +76,7 @@ class Descriptors(InFreshFolder):
             with self.subTest(closed=closed):
                 process = subprocess.run([PROGRAM, "run", "scene.toml", "-o", "run", "--overwrite"], cwd=self.folder,
                                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                         preexec_fn=lambda: [os.close(number) for number in closed], timeout=60)
+                                         env=ONE_THREAD, preexec_fn=lambda: [os.close(number) for number in closed], timeout=60)
                 self.assertEqual(process.returncode, DONE)
                 for line in (self.folder / "run/events.jsonl").read_text().splitlines():
                     self.assertTrue(line.startswith('{"event": '), line)
