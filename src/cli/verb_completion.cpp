@@ -1,9 +1,8 @@
 #include <skein/scene/scene_reference.hpp>
 
 #include "cli/completion.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-
-#include <fmt/format.h>
 
 #include <memory>
 #include <string>
@@ -19,7 +18,7 @@ Verb make_completion_verb(const std::vector<Verb>& verbs) {
           "  source <(skein completion bash)      in this shell, or in every one by this line in ~/.bashrc\n"
           "An installed skein needs neither: the script is where bash-completion looks for it.",
           [shell, &verbs] {  // bash is all that it can be
-            fmt::print("{}", write_bash_completion(verbs, list_keys()));
+            print_result(write_bash_completion(verbs, list_keys()));
             return 0;
           }};
 }
