@@ -10,7 +10,6 @@ import json
 import os
 import pathlib
 import subprocess
-import unittest
 
 from cli_case import DONE, IO_ERROR, MISSING_INPUT, PROGRAM, SCENE_ERROR, SOURCES, USAGE, InFreshFolder, main, skein
 

@@ -6,7 +6,6 @@ Called as test_outputs.py PROGRAM SOURCES.
 import os
 import shutil
 import subprocess
-import unittest
 
 from cli_case import CANNOT_CREATE, DONE, MISSING_INPUT, PROGRAM, SMALL_SCENE, USAGE, InFreshFolder, main
 

@@ -10,9 +10,8 @@ import shutil
 import signal
 import subprocess
 import time
-import unittest
 
-from cli_case import (CANNOT_CREATE, DONE, IO_ERROR, NO_RESOURCES, PROGRAM, SCENE_ERROR, SMALL_SCENE, STOPPED, USAGE,
+from cli_case import (DONE, IO_ERROR, NO_RESOURCES, PROGRAM, SCENE_ERROR, SMALL_SCENE, STOPPED, USAGE,
                       InFreshFolder, main, skein)
 
 # Of many cheap steps: there is time to stop it.
