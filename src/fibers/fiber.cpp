@@ -10,18 +10,19 @@ namespace skein {
 namespace {
 
 void append_nodes(const Fiber& fiber, const std::uint64_t seed, std::vector<Vec3>& nodes) {
-  const FiberConfig& config = fiber.config;
-  for (const SectionPose& section : make_section_poses(fiber, seed)) {
-    for (int node = 0; node < config.nodes_per_section; ++node) {
-      const double angle = 2.0 * std::numbers::pi * node / config.nodes_per_section;
-      const double radius = config.radius;
-      nodes.push_back(section.center + radius * std::cos(angle) * section.axes.angle_0 +
-                      radius * std::sin(angle) * section.axes.angle_90);
-    }
-  }
+  for (const SectionPose& section : make_section_poses(fiber, seed)) append_section_nodes(fiber.config, section, nodes);
 }
 
 }  // namespace
+
+void append_section_nodes(const FiberConfig& config, const SectionPose& section, std::vector<Vec3>& nodes) {
+  for (int node = 0; node < config.nodes_per_section; ++node) {
+    const double angle = 2.0 * std::numbers::pi * node / config.nodes_per_section;
+    const double radius = config.radius;
+    nodes.push_back(section.center + radius * std::cos(angle) * section.axes.angle_0 +
+                    radius * std::sin(angle) * section.axes.angle_90);
+  }
+}
 
 double Fiber::spacing() const { return 2.0 * config.radius * std::sin(std::numbers::pi / config.nodes_per_section); }
 

@@ -3,6 +3,7 @@
 #include <skein/fibers/placement.hpp>
 #include <skein/fibers/segment_distance.hpp>
 #include <skein/fibers/start_shape.hpp>
+#include <skein/fibers/tube_overlap.hpp>
 
 #include <fmt/format.h>
 
@@ -144,14 +145,20 @@ std::vector<FiberConfig> place_randomly(const SceneConfig& scene) {
   return fibers;
 }
 
-/// Between the centrelines at the start, bends included.
-double compute_distance(const Fiber& a, const Fiber& b, const std::uint64_t seed) {
-  const auto first = make_section_poses(a, seed), second = make_section_poses(b, seed);
+double compute_distance(const TubePiece& a, const TubePiece& b) {
+  return compute_segment_distance(a.first.center, a.last.center, b.first.center, b.last.center);
+}
+
+/// Smallest distance of the centrelines of pieces that overlap; infinite where none do.
+double find_overlap(const Fiber& a, const Fiber& b, const std::uint64_t seed) {
+  const double needed = a.config.radius + b.config.radius;
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < first.size(); ++i)
-    for (std::size_t j = 1; j < second.size(); ++j)
-      smallest = std::min(smallest, compute_segment_distance(first[i - 1].center, first[i].center, second[j - 1].center,
-                                                             second[j].center));
+  const auto others = list_tube_pieces(make_section_poses(b, seed), b.config.radius);
+  for (const TubePiece& piece : list_tube_pieces(make_section_poses(a, seed), a.config.radius))
+    for (const TubePiece& other : others) {
+      const double distance = compute_distance(piece, other);
+      if (distance < std::min(needed, smallest) && !are_apart(piece, other)) smallest = distance;
+    }
   return smallest;
 }
 
@@ -183,8 +190,8 @@ void check_overlap(const std::vector<Fiber>& fibers, const std::uint64_t seed) {
     for (std::size_t j = 0; j < i; ++j) {
       if (gap_between(capsules[i], capsules[j]) >= 0.0) continue;
       const double needed = fibers[i].config.radius + fibers[j].config.radius;
-      const double distance = compute_distance(fibers[j], fibers[i], seed);
-      if (distance < needed)
+      const double distance = find_overlap(fibers[j], fibers[i], seed);
+      if (std::isfinite(distance))
         throw Error(ExitCode::scene_error,
                     fmt::format("fibers {} and {} overlap at the start: their centrelines come as near as {:.4g}, and "
                                 "their radii together are {:.4g}. Move one of them, or let [placement] find places.",

@@ -1,6 +1,10 @@
 #include <skein/core/counter_random.hpp>
+#include <skein/core/error.hpp>
 #include <skein/fibers/start_shape.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,23 +13,74 @@ namespace {
 
 constexpr int n_noise_modes = 10;
 
-/// A bend of the centreline: deflection (to_0, to_90) sin(mode pi s) L over the share s of the length L.
+/// A bend of the centreline: slope (to_0, to_90) mode pi cos(mode pi s) over the share s of the length.
 struct Bend {
   int mode;
-  double to_0, to_90;  ///< along the axes of angle 0 and 90 degrees of the fiber without roll, over L
+  double to_0, to_90;  ///< along the axes of angle 0 and 90 degrees of the fiber without roll; small: deflection / L
 };
+
+/// Largest distance of a section's centre from the line through the ends, over the length, of one bend alone.
+double measure_bend(const int n_sections, const int mode, const double slope) {
+  std::vector<Vec3> center(1);
+  for (int s = 1; s < n_sections; ++s) {
+    const double rise = slope * std::cos(mode * std::numbers::pi * s / n_sections);
+    center.push_back(center.back() + Vec3{1.0, rise, 0.0} / (std::hypot(1.0, rise) * n_sections));
+  }
+  const Vec3 chord = center.back() / norm(center.back());
+  double largest = 0.0;
+  for (const Vec3 point : center) largest = std::max(largest, norm(cross(chord, point)));
+  return largest;
+}
+
+/// The slope that makes a bend as large as the scene asks for: by regula falsi, with Illinois' change of weights.
+double find_slope(const FiberConfig& config) {
+  const auto excess = [&](const double slope) {
+    return measure_bend(config.sections, config.start_mode, slope) - config.start_amplitude;
+  };
+  constexpr double steepest = 1e4;
+  double low = 0.0, high = config.start_mode * std::numbers::pi * config.start_amplitude;
+  double below = -config.start_amplitude, above = excess(high);
+  while (above < 0.0) {
+    if (high > steepest)
+      throw Error(ExitCode::scene_error,
+                  fmt::format("start_amplitude {:g} is more than a fiber can reach with {} half waves",
+                              config.start_amplitude, config.start_mode));
+    low = high;
+    below = above;
+    high *= 2.0;
+    above = excess(high);
+  }
+  constexpr int n_steps = 100;
+  for (int step = 0, side = 0; step < n_steps; ++step) {
+    const double slope = (low * above - high * below) / (above - below), found = excess(slope);
+    if (std::abs(found) <= 1e-14 * config.start_amplitude || high - low <= 1e-15 * high) return slope;
+    if (found > 0.0) {
+      high = slope;
+      above = found;
+      if (side == 1) below *= 0.5;
+      side = 1;
+    } else {
+      low = slope;
+      below = found;
+      if (side == -1) above *= 0.5;
+      side = -1;
+    }
+  }
+  return high;
+}
 
 std::vector<Bend> list_bends(const Fiber& fiber, const std::uint64_t seed) {
   const FiberConfig& config = fiber.config;
   std::vector<Bend> bends;
   if (config.start_amplitude > 0.0) {
     const double plane = config.start_plane * std::numbers::pi / 180.0;
-    bends.push_back(
-        {config.start_mode, config.start_amplitude * std::cos(plane), config.start_amplitude * std::sin(plane)});
+    const double height = find_slope(config) / (config.start_mode * std::numbers::pi);
+    bends.push_back({config.start_mode, height * std::cos(plane), height * std::sin(plane)});
   }
   if (config.start_noise > 0.0) {
     const CounterRandom random(seed, CounterRandom::Purpose::start_noise, static_cast<std::uint32_t>(fiber.index));
-    for (int mode = 1; mode <= n_noise_modes; ++mode) {
+    const int n_modes = std::clamp(config.sections / sections_per_half_wave, 1, n_noise_modes);
+    for (int mode = 1; mode <= n_modes; ++mode) {
       const auto [a, b] = random.draw(static_cast<std::uint64_t>(mode));
       bends.push_back({mode, config.start_noise * (2.0 * a - 1.0), config.start_noise * (2.0 * b - 1.0)});
     }

@@ -1,5 +1,7 @@
 #include "runs/model_guard.hpp"
 
+#include <skein/fibers/start_check.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +35,7 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
              "fiber {} is bent to a radius of {:.3g}, less than the distance of its sections, {:.3g}: the bend is "
              "not resolved; take more nodes per section, which brings sections closer",
              sharpest_fiber, 1.0 / record.curvature_max[sharpest_fiber], spacing_[sharpest_fiber]));
-  if (largest_strain > strain_limit)
+  if (largest_strain > largest_sound_strain)
     meet(strained_spring, largest_strain > worst_[strained_spring], largest_strain,
          fmt::format(
              "a spring is strained by {:.0f} %: springs this weak against the flow no longer act as a solid rod; "

@@ -28,8 +28,6 @@ class ModelGuard {
 
   void visit_memory(NumberVisitor& visitor);
 
-  static constexpr double strain_limit = 0.5;
-
  private:
   enum Kind { sharp_hook, strained_spring, contact };
   static constexpr int n_kinds = 3;

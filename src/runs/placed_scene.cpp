@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 #include <skein/fibers/placement.hpp>
+#include <skein/fibers/start_check.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
 
@@ -11,8 +12,19 @@
 
 namespace skein {
 
+namespace {
+
+std::vector<KeyProblem> find_problems(const SceneConfig& scene) {
+  auto problems = find_mobility_problems(scene);
+  const auto starts = find_start_problems(scene);
+  problems.insert(problems.end(), starts.begin(), starts.end());
+  return problems;
+}
+
+}  // namespace
+
 PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  SceneReading reading = read_scene(file, overrides, find_mobility_problems);
+  SceneReading reading = read_scene(file, overrides, find_problems);
   check_memory(reading.config);
   try {
     reading.config = resolve_times(place_fibers(reading.config));

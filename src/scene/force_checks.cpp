@@ -1,3 +1,5 @@
+#include <skein/scene/scene_size.hpp>
+
 #include "scene_checks.hpp"
 #include "scene_numbers.hpp"
 #include "scene_value.hpp"

@@ -28,19 +28,24 @@ void visit_flow(KeyVisitor& visitor, FlowConfig& flow) {
 }
 
 void visit_start_shape(KeyVisitor& visitor, FiberConfig& fiber) {
-  visitor.integer({"start_mode", "", between(1, 1000),
-                   "half waves of the bend at the start; 1: a C, 2: an S. Springs keep the straight fiber's lengths"},
-                  fiber.start_mode);
-  visitor.number({"start_amplitude", "", between(0.0, 0.2),
-                  "largest deflection of that bend, as a fraction of the fiber's length; 0: straight"},
-                 fiber.start_amplitude);
+  visitor.integer(
+      {"start_mode", "", between(1, 1000),
+       "half waves of the bend at the start; 1: a C, 2: an S. At most a quarter of the sections. Springs keep the "
+       "straight fiber's lengths"},
+      fiber.start_mode);
+  visitor.number(
+      {"start_amplitude", "", between(0.0, 0.2),
+       "largest distance of a section from the line through the ends by that bend, as a fraction of the fiber's "
+       "length; 0: straight. Springs may be strained by half of their length"},
+      fiber.start_amplitude);
   visitor.number({"start_plane", "degrees", between(-360, 360),
                   "direction of that bend about the fiber; 0: towards y for a fiber along x, 90: towards z"},
                  fiber.start_plane);
-  visitor.number({"start_noise", "", between(0.0, 0.02),
-                  "random bends of 1 to 10 half waves in all directions, each with up to this amplitude as a fraction "
-                  "of the fiber's length; they follow from seed and the fiber's number"},
-                 fiber.start_noise);
+  visitor.number(
+      {"start_noise", "", between(0.0, 0.02),
+       "random bends of 1 to 10 half waves, at most a quarter of the sections, in all directions, each with up "
+       "to this amplitude as a fraction of the fiber's length; they follow from seed and the fiber's number"},
+      fiber.start_noise);
 }
 
 void visit_springs(KeyVisitor& visitor, FiberConfig& fiber) {

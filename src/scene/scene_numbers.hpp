@@ -12,7 +12,4 @@ inline constexpr double smallest_direction = 1e-100;
 /// The chord between neighbouring nodes of a section, which is also the distance of sections. Length
 double compute_node_spacing(const FiberConfig& fiber);
 
-/// Fibers once placement has made its copies.
-double count_fibers(const SceneConfig& scene);
-
 }  // namespace skein

@@ -1,6 +1,7 @@
 #include "studies/phases.hpp"
 
 #include <skein/fibers/calibration.hpp>
+#include <skein/fibers/start_check.hpp>
 #include <skein/io/array_file.hpp>
 #include <skein/scene/scene_file.hpp>
 
@@ -17,7 +18,7 @@ namespace {
 constexpr double shear_rate = 2.5;  // of the paper
 
 SceneConfig perturb(const SceneConfig& scene, const std::vector<std::string>& overrides) {
-  return read_scene_text(write_scene(scene), "the perturbed scene", overrides).config;
+  return read_scene_text(write_scene(scene), "the perturbed scene", overrides, find_start_problems).config;
 }
 
 PhaseResult measure_point(const PhasePoint& point, const RunAnalysis& analysis) {

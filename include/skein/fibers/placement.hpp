@@ -15,7 +15,7 @@ namespace skein {
 SceneConfig place_fibers(const SceneConfig& scene);
 
 /// @param seed  of random bends
-/// @throws Error(scene_error) if the centrelines of two fibers are nearer at the start than their radii together
+/// @throws Error(scene_error) if the tubes of two fibers overlap at the start, their ends being flat
 void check_overlap(const std::vector<Fiber>& fibers, std::uint64_t seed);
 
 }  // namespace skein

@@ -24,12 +24,20 @@ struct SectionPose {
   FiberAxes axes;  ///< `along` is perpendicular to the section
 };
 
+/// Adds the nodes of a section. @param nodes  length
+void append_section_nodes(const FiberConfig& config, const SectionPose& section, std::vector<Vec3>& nodes);
+
 /// Sections of a fiber at the start: straight, or bent by start_amplitude and start_noise. A bent fiber keeps its
 /// length (neighbouring sections are a spacing apart) and its circular sections, which stay perpendicular to its
-/// centreline. The slope of the centreline against the fiber's direction is that of a sin(mode pi s / L) for each bend.
+/// centreline. The slope of the centreline against the fiber's direction is that of a sine for each bend; that of
+/// start_mode is as steep as brings a section start_amplitude L away from the line through the ends.
 /// @param seed  of the random bends, with the fiber's index
 /// @returns [fiber.config.sections]
+/// @throws Error(scene_error) where no slope reaches the amplitude, see find_start_problems
 std::vector<SectionPose> make_section_poses(const Fiber& fiber, std::uint64_t seed);
+
+/// Sections that a half wave of a bend needs to be seen by.
+inline constexpr int sections_per_half_wave = 4;
 
 /// What the bends add at most to the distance of the centreline from the straight one. Length
 double bound_start_deflection(const Fiber& fiber);

@@ -58,7 +58,7 @@ struct FiberConfig {
   double roll = 0.0;                 ///< degrees, about the direction
 
   int start_mode = 1;            ///< half waves of the bend at the start, >= 1
-  double start_amplitude = 0.0;  ///< of that bend, as a fraction of the fiber's length
+  double start_amplitude = 0.0;  ///< of that bend from the line through the ends, as a fraction of the fiber's length
   double start_plane = 0.0;      ///< degrees about the direction; 0: towards y for a fiber along x
   double start_noise = 0.0;      ///< amplitude of random bends, as a fraction of the fiber's length
 
