@@ -18,23 +18,81 @@ double mean_factor(const SpringNetwork& network) {
   return sum / (network.n_sections - 1);
 }
 
-/// Second derivative of the energy of the springs between sections by a strain of the beam, per length of beam.
-/// `stretch(sections apart, angle between the nodes, rest length)` is the change of a spring's length per strain.
-template <class Stretch>
-double sum_links(const Fiber& fiber, const Stretch& stretch) {
+/// A spring of the cell that repeats itself along a fiber without ends, from angle 0 of a section on: the others follow
+/// by turns of a node.
+struct Link {
+  double along;   ///< distance of its sections, length
+  double angle;   ///< between its nodes about the axis, radians
+  double length;  ///< at rest
+};
+
+/// The stiffness of a section's springs against changes of their lengths, summed per length of beam over the spring's
+/// places around the section: sum of k/l * product(link, turn), `turn` the angle of the link's first node.
+template <class Product>
+double sum_springs(const Fiber& fiber, const Product& product) {
   const SpringNetwork network = make_spring_network(fiber);
   const SpringStencil& stencil = network.stencil;
   const int n = stencil.nodes_per_section;
   double sum = 0.0;
-  for (int offset = 1; offset <= stencil.reach; ++offset) {
+  for (int offset = 0; offset <= stencil.reach; ++offset) {
+    // Within a section both ends name each spring.
+    const double share = offset == 0 ? 0.5 : 1.0;
     for (int node = 0; node < n; ++node) {
       const int entry = stencil.entry(offset, node);
-      const double change = stretch(offset, 2.0 * std::numbers::pi * node / n, stencil.rest_length[entry]);
-      // d2E/dr2 = k / l at rest; every node of a section has this spring.
-      sum += n * stencil.stiffness[entry] / stencil.rest_length[entry] * change * change;
+      if (stencil.stiffness[entry] == 0.0) continue;
+      const Link link{offset * fiber.spacing(), 2.0 * std::numbers::pi * node / n, stencil.rest_length[entry]};
+      for (int first = 0; first < n; ++first)
+        sum += share * stencil.stiffness[entry] / link.length * product(link, 2.0 * std::numbers::pi * first / n);
     }
   }
   return mean_factor(network) * sum / fiber.spacing();
+}
+
+/// Twice the least energy per length of beam and strain squared. `strain(link, turn)` is how much a spring lengthens
+/// per strain of the beam while sections stay rigid, `shape(link, turn)` by a unit of the only change of the sections'
+/// shape that the strain calls for.
+template <class Strain, class Shape>
+double relax(const Fiber& fiber, const Strain& strain, const Shape& shape) {
+  const auto sum = [&](const auto& a, const auto& b) {
+    return sum_springs(fiber, [&](const Link& link, const double turn) { return a(link, turn) * b(link, turn); });
+  };
+  const double resistance = sum(shape, shape), coupling = sum(strain, shape);
+  return sum(strain, strain) - (resistance > 0.0 ? coupling * coupling / resistance : 0.0);
+}
+
+/// How far the places of a link's nodes move apart along the link, in the plane of a section: by displacements of its
+/// ends, each outwards and around.
+double stretch_across(const Link& link, const double radius, const double out, const double around,
+                      const double other_out, const double other_around) {
+  // Of the second node seen from the first one's radius and tangent.
+  const double cosine = std::cos(link.angle), sine = std::sin(link.angle);
+  const double outwards = other_out * cosine - other_around * sine - out;
+  const double sideways = other_out * sine + other_around * cosine - around;
+  return radius * ((cosine - 1.0) * outwards + sine * sideways) / link.length;
+}
+
+/// A beam's curvature lengthens a link by its height over the neutral line; sections answer as cos(angle) and
+/// sin(angle), outwards and around, of which a shift of the whole section is no change of shape: so the part around is
+/// all that counts.
+double measure_relaxed_bending(const Fiber& fiber) {
+  const double radius = fiber.config.radius;
+  return relax(
+      fiber,
+      [radius](const Link& link, const double turn) {
+        const double height = 0.5 * radius * (std::cos(turn) + std::cos(turn + link.angle));
+        return -link.along * link.along * height / link.length;
+      },
+      [radius](const Link& link, const double turn) {
+        return stretch_across(link, radius, 0.0, std::sin(turn), 0.0, std::sin(turn + link.angle));
+      });
+}
+
+/// A stretched section answers by growing narrower.
+double measure_relaxed_axial(const Fiber& fiber) {
+  const double radius = fiber.config.radius;
+  return relax(
+      fiber, [](const Link& link, double) { return link.along * link.along / link.length; },
+      [radius](const Link& link, double) { return stretch_across(link, radius, 1.0, 0.0, 1.0, 0.0); });
 }
 
 /// From what one more section adds to a fiber as short as its springs allow.
@@ -79,16 +137,17 @@ double measure_bending_rigidity(const Fiber& fiber, const double curvature) {
 
 BeamStiffness measure_beam_stiffness(const Fiber& fiber) {
   const double curvature = small_bend / fiber.config.radius;
-  const double spacing = fiber.spacing();
   const double radius = fiber.config.radius;
   BeamStiffness stiffness;
   stiffness.bending = measure_bending_rigidity(fiber, curvature);
   stiffness.infinite_bending = measure_infinite_bending(fiber, curvature);
-  stiffness.axial = sum_links(
-      fiber, [&](const int apart, double, const double length) { return std::pow(apart * spacing, 2) / length; });
-  stiffness.torsional = sum_links(fiber, [&](const int apart, const double angle, const double length) {
-    return apart * spacing * radius * radius * std::sin(angle) / length;
+  stiffness.axial =
+      sum_springs(fiber, [](const Link& link, double) { return std::pow(link.along * link.along / link.length, 2); });
+  stiffness.torsional = sum_springs(fiber, [&](const Link& link, double) {
+    return std::pow(link.along * radius * radius * std::sin(link.angle) / link.length, 2);
   });
+  stiffness.relaxed_bending = measure_relaxed_bending(fiber);
+  stiffness.relaxed_axial = measure_relaxed_axial(fiber);
   return stiffness;
 }
 

@@ -60,21 +60,29 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
                        {"build", describe_build()}, {"backend", describe_backend()},
                        {"flow", flow.description},  {"integrator", word_of(scene.time.method)}};
   const double rate = flow.typical_rate;
-  std::vector<double> length, rigidity, number, number_slender;
+  std::vector<double> length, rigidity, relaxed_rigidity, number, number_slender, relaxed_number,
+      relaxed_number_slender;
   for (const Fiber& fiber : fibers) {
     const BeamStiffness beam = measure_beam_stiffness(fiber);
     length.push_back(fiber.length());
     rigidity.push_back(beam.bending);
+    relaxed_rigidity.push_back(beam.relaxed_bending);
     const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
     number.push_back(numbers.with_log_4e_over_rho2);
     number_slender.push_back(numbers.with_minus_log_rho2_e);
+    const auto relaxed = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.relaxed_bending);
+    relaxed_number.push_back(relaxed.with_log_4e_over_rho2);
+    relaxed_number_slender.push_back(relaxed.with_minus_log_rho2_e);
   }
   layout.parameters = {{"fiber_length", {length, "length"}},
                        {"bending_rigidity", {rigidity, "force*length^2"}},
+                       {"relaxed_bending_rigidity", {relaxed_rigidity, "force*length^2"}},
                        {"viscosity", {scene.fluid.viscosity, "force*time/length^2"}},
                        {"shear_rate", {rate, "1/time"}},
                        {"elasto_viscous_number_log_4e_over_rho2", {number, "1"}},
-                       {"elasto_viscous_number_minus_log_rho2_e", {number_slender, "1"}}};
+                       {"elasto_viscous_number_minus_log_rho2_e", {number_slender, "1"}},
+                       {"relaxed_elasto_viscous_number_log_4e_over_rho2", {relaxed_number, "1"}},
+                       {"relaxed_elasto_viscous_number_minus_log_rho2_e", {relaxed_number_slender, "1"}}};
   return layout;
 }
 

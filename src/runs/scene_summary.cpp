@@ -23,12 +23,14 @@ std::string describe_fiber(const SceneConfig& scene, const double rate, const Fi
   const FiberConfig& config = fiber.config;
   const BeamStiffness beam = measure_beam_stiffness(fiber);
   std::string text = fmt::format(
-      "fiber {}: {} sections of {} nodes, length {:.6g}, radius {:g}, spacing {:.6g}, {} springs\n"
-      "  EI {:.6g} (infinite fiber {:.6g}), EA {:.6g}, GJ {:.6g}\n"
+      "fiber {}: {} sections of {} nodes, length {:.6g} (centreline {:.6g}), radius {:g}, spacing {:.6g}, {} springs\n"
+      "  with rigid sections, as in the paper: EI {:.6g} (infinite fiber {:.6g}), EA {:.6g}, GJ {:.6g}\n"
+      "  at equilibrium, sections free to change shape (infinite fiber): EI {:.6g}, EA {:.6g}\n"
       "  rho = R/L {:.4g}, blob/spacing {:.3g}, blob/radius {:.3g}\n",
-      index, config.sections, config.nodes_per_section, fiber.length(), config.radius, fiber.spacing(),
-      count_springs(make_spring_network(fiber)), beam.bending, beam.infinite_bending, beam.axial, beam.torsional,
-      config.radius / fiber.length(), config.blob / fiber.spacing(), config.blob / config.radius);
+      index, config.sections, config.nodes_per_section, fiber.length(), fiber.length() - fiber.spacing(), config.radius,
+      fiber.spacing(), count_springs(make_spring_network(fiber)), beam.bending, beam.infinite_bending, beam.axial,
+      beam.torsional, beam.relaxed_bending, beam.relaxed_axial, config.radius / fiber.length(),
+      config.blob / fiber.spacing(), config.blob / config.radius);
   const auto [softest, stiffest] =
       std::minmax_element(config.stiffness_profile.begin(), config.stiffness_profile.end(),
                           [](const ProfilePoint& a, const ProfilePoint& b) { return a.factor < b.factor; });
@@ -37,11 +39,14 @@ std::string describe_fiber(const SceneConfig& scene, const double rate, const Fi
         "  the stiffness varies along the fiber, from {:g} to {:g} times spring_stiffness: means are given\n",
         softest->factor, stiffest->factor);
   if (rate > 0.0) {
-    const auto numbers = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
+    const auto rigid = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
+    const auto relaxed = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.relaxed_bending);
     text += fmt::format(
         "  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
-        "-ln(rho^2 e)\n",
-        numbers.with_log_4e_over_rho2, numbers.with_minus_log_rho2_e);
+        "-ln(rho^2 e), by EI of rigid sections;\n"
+        "  {:.4g} and {:.4g} by EI at equilibrium, which tells how the fiber bends\n",
+        rigid.with_log_4e_over_rho2, rigid.with_minus_log_rho2_e, relaxed.with_log_4e_over_rho2,
+        relaxed.with_minus_log_rho2_e);
   }
   return text;
 }
@@ -55,7 +60,7 @@ std::string describe_repulsion(const SceneConfig& scene, const double rate, cons
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f) {
     radius = std::max(radius, fibers[f].config.radius);
     const double straight =
-        4.0 * std::pow(measure_beam_stiffness(fibers[f]).bending / (scene.fluid.viscosity * rate), 0.25);
+        4.0 * std::pow(measure_beam_stiffness(fibers[f]).relaxed_bending / (scene.fluid.viscosity * rate), 0.25);
     length = std::max(length, std::min(fibers[f].length(), straight));
   }
   std::string text = fmt::format(

@@ -3,7 +3,9 @@
 EI: the straight fiber is bent into an arc of curvature kappa whose centreline keeps its length and whose sections stay
 circular and perpendicular to it; EI = 2 E / (kappa^2 L), L = N_f ds. A fiber of N_f sections has N_f - 1 links, so that
 of a fiber without ends is N_f / (N_f - 1) times as large. EA and GJ: second derivatives of the energy of one link by a
-stretch and a twist that leave sections rigid and plane, per length, by differences of fourth order.
+stretch and a twist that leave sections rigid and plane, per length, by differences of fourth order. At equilibrium each
+section of a fiber without ends is displaced alike, in its own frame, so that the energy of its springs is least: a
+linear least-squares problem for three components of every node.
 
 Numbers for tests/unit/test_calibration.cpp and tests/unit/test_spring_network.cpp.
 """
@@ -49,6 +51,37 @@ def twisted(nodes, twist):
     return np.stack([nodes[..., 0], np.cos(angle) * y - np.sin(angle) * z, np.sin(angle) * y + np.cos(angle) * z], -1)
 
 
+def relaxed_modulus(elongation, stiffness=tube.STIFFNESS, nodes_per_section=tube.NODES_PER_SECTION):
+    """Twice the least energy per length and strain squared; `elongation(apart, first, second)` is the first-order change
+    of a spring's length per strain, sections rigid, between nodes that stand at [x, y, z]."""
+    ring = tube.straight_nodes(1, nodes_per_section)[0]
+    rows, right = [], []
+    for apart, steps, is_twice in tube.spring_families(nodes_per_section):
+        weight = np.sqrt(stiffness / tube.rest_length(apart, steps, nodes_per_section) * (0.5 if is_twice else 1.0))
+        for node in range(nodes_per_section):
+            other = (node + steps) % nodes_per_section
+            first, second = ring[node], ring[other] + [apart * tube.spacing(nodes_per_section), 0.0, 0.0]
+            direction = (second - first) / np.linalg.norm(second - first)
+            row = np.zeros((nodes_per_section, 3))
+            row[other] += direction
+            row[node] -= direction
+            rows.append(weight * row.ravel())
+            right.append(weight * elongation(first, second))
+    rows, right = np.array(rows), np.array(right)
+    answer = np.linalg.lstsq(rows, -right, rcond=1e-10)[0]  # rigid motions cost nothing
+    return np.sum((rows @ answer + right)**2) / tube.spacing(nodes_per_section)
+
+
+def bending_elongation(first, second):
+    """By a curvature towards y: u = (-x y, x^2 / 2, 0)."""
+    field = lambda p: np.array([-p[0] * p[1], 0.5 * p[0]**2, 0.0])
+    return (field(second) - field(first)) @ (second - first) / np.linalg.norm(second - first)
+
+
+def stretching_elongation(first, second):
+    return (second[0] - first[0])**2 / np.linalg.norm(second - first)
+
+
 def elasto_viscous_number(sections, stiffness):
     """8 pi rate L^4 / (c EI) with c = ln(4 e / rho^2), rho = R / L, and the fiber's own EI."""
     length = sections * tube.spacing()
@@ -70,6 +103,9 @@ def main():
     print(f"EI of 80 sections: {bending_rigidity(80, 0.1):.6g}")
     print(f"EA: {link_modulus(stretched, 1e-3):.6g}")
     print(f"GJ: {link_modulus(twisted, 1.0):.6g}")
+    for nodes in (18, 9, 6, 3):
+        moduli = [relaxed_modulus(strain, tube.STIFFNESS, nodes) for strain in (bending_elongation, stretching_elongation)]
+        print(f"at equilibrium, {nodes} nodes a section: EI {moduli[0]:.6g}, EA {moduli[1]:.6g}")
     for stiffness in (tube.STIFFNESS, 0.011237):
         numbers = [f"{elasto_viscous_number(n, stiffness):.4g}" for n in PAPER_SECTIONS]
         print(f"mu_bar, k = {stiffness:g}, {PAPER_SECTIONS} sections: {', '.join(numbers)}")
