@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
 #include <system_error>
@@ -54,6 +55,9 @@ int run_command_line(const int n_arguments, char** arguments, const std::vector<
     if (error.code() == ExitCode::internal) return report_internal(error.what());
     print_error(error.what());
     return static_cast<int>(error.code());
+  } catch (const std::filesystem::filesystem_error& error) {
+    print_error(fmt::format("'{}': {}", error.path1().string(), error.code().message()));
+    return static_cast<int>(ExitCode::io_error);
   } catch (const std::bad_alloc&) {
     print_error("there is not enough memory; ask for fewer nodes, frames or points, or use a machine with more");
     return static_cast<int>(ResourceError::exit_code);

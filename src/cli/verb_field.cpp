@@ -2,9 +2,9 @@
 #include <skein/core/error.hpp>
 #include <skein/io/array_file.hpp>
 #include <skein/io/point_file.hpp>
+#include <skein/io/run_scene.hpp>
 #include <skein/io/trajectory_reader.hpp>
 #include <skein/io/vtk_image.hpp>
-#include <skein/scene/scene_file.hpp>
 
 #include "cli/common_arguments.hpp"
 #include "cli/field_grid.hpp"
@@ -123,7 +123,8 @@ int write_field(const FieldOptions& options) {
   const RunFolder folder = RunFolder::open(options.folder);
   check_outputs(options, folder);
   check_options(options);
-  const SceneConfig scene = read_scene(folder.scene(), {}).config;
+  check_scene_is_of_run(folder);
+  const SceneConfig scene = read_run_scene(folder);
   const Runtime runtime(options.threads);
   const Frame frame = read_frame(TrajectoryReader(folder, scene), options);
   const bool is_grid = options.at.empty();

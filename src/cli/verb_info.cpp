@@ -1,9 +1,9 @@
 #include <skein/core/json.hpp>
 #include <skein/core/terminal_text.hpp>
 #include <skein/io/run_folder.hpp>
+#include <skein/io/run_scene.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/physics/mobility_choice.hpp>
-#include <skein/scene/scene_file.hpp>
 
 #include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
@@ -40,8 +40,9 @@ void print_json(const std::string& scene, const std::string& mobility, const Run
 
 int print_info(const InfoOptions& options) {
   const RunSummary summary = read_run_summary(options.folder);
-  const std::string scene = RunFolder::open(options.folder).scene().string();
-  const SceneConfig config = read_scene(scene, {}).config;
+  const RunFolder folder = RunFolder::open(options.folder);
+  const std::string scene = folder.scene().string();
+  const SceneConfig config = read_run_scene(folder);
   const std::string mobility = describe_choice(choose_mobility(config), config);
   options.json ? print_json(scene, mobility, summary) : print_lines(scene, mobility, summary);
   return 0;

@@ -1,7 +1,8 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/error.hpp>
+#include <skein/io/listed_segments.hpp>
+#include <skein/io/run_scene.hpp>
 #include <skein/io/run_summary.hpp>
-#include <skein/scene/scene_file.hpp>
 
 #include "cli/common_arguments.hpp"
 #include "cli/plot_scripts.hpp"
@@ -35,13 +36,13 @@ struct PlotOptions {
 /// @param results  where tables are written if the run's own are older than the run
 /// @returns the folder of tables that are up to date
 fs::path refresh_analysis(const RunFolder& folder, const fs::path& results) {
-  std::error_code ignored;
+  std::error_code ignored;  // what cannot be looked at is made anew
   const fs::path tables = folder.analysis() / "diagnostics.h5";
   if (fs::exists(tables, ignored) &&
       fs::last_write_time(tables, ignored) >= fs::last_write_time(folder.index(), ignored))
     return folder.analysis();
   constexpr double most_pairs = 1e11;
-  const auto n_nodes = static_cast<double>(count_nodes(make_fibers(read_scene(folder.scene(), {}).config.fibers)));
+  const auto n_nodes = static_cast<double>(count_nodes(make_fibers(read_run_scene(folder).fibers)));
   const double pairs = n_nodes * n_nodes * static_cast<double>(read_run_summary(folder.path()).frames);
   const Runtime runtime;
   write_analysis(analyze_run(folder, pairs <= most_pairs), results);
@@ -61,10 +62,7 @@ std::optional<fs::path> find_tables(const PlotOptions& options) {
 }
 
 int plot_run(const PlotOptions& options) {
-  std::error_code error;
-  if (!fs::is_directory(options.folder, error)) {
-    throw Error(ExitCode::missing_input, fmt::format("the run folder {} is not there", options.folder));
-  }
+  check_listed_segments(RunFolder::open(options.folder));  // the scripts that draw believe what they read
   // Made absolute, so that a folder whose name begins with a dash is no option.
   std::vector<std::string> arguments{fs::absolute(options.folder).string()};
   if (!options.output.empty()) {

@@ -3,12 +3,13 @@
 #include <skein/core/version.hpp>
 #include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/run_lock.hpp>
-#include <skein/scene/scene_file.hpp>
+#include <skein/io/run_scene.hpp>
 
 #include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
+#include "runs/finished_run.hpp"
 #include "runs/memory_limit.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
@@ -26,7 +27,7 @@ struct ResumeOptions {
   std::string folder;
   int threads = 0;
   double max_walltime = std::numeric_limits<double>::infinity();
-  bool quiet = false;
+  bool from_start = false, quiet = false;
 };
 
 // What has to be said before going on; empty for a checkpoint of this very program.
@@ -40,11 +41,19 @@ std::string compare_programs(const Checkpoint& checkpoint) {
 }
 
 std::string describe_point(const ResumePoint& point, const SceneConfig& scene) {
-  if (!point.checkpoint) return "resume: there is no checkpoint yet; the run starts again at t = 0";
+  if (!point.checkpoint) return "resume: there is no checkpoint; the run starts at t = 0";
   const double time = point.checkpoint->number("state.time");
   return fmt::format("resume: from '{}', t = {:.6g}, step {}; {:.1f} % of the simulated time is done, {:.6g} is left",
                      point.path.string(), time, point.checkpoint->integer("state.step"),
                      scene.time.end > 0.0 ? 100.0 * time / scene.time.end : 100.0, scene.time.end - time);
+}
+
+int finish_run(const RunFolder& folder, const SceneConfig& scene, const Checkpoint& checkpoint) {
+  const std::string mended = mend_finished_run(scene, folder, checkpoint);
+  if (!mended.empty()) print_warning(fmt::format("{}: mended", mended));
+  print_message(fmt::format("'{}' is done: t = {:g}, step {}; nothing is left to do.", folder.path().string(),
+                            scene.time.end, checkpoint.integer("state.step")));
+  return 0;
 }
 
 int resume_run(const ResumeOptions& options) {
@@ -52,16 +61,14 @@ int resume_run(const ResumeOptions& options) {
   const Runtime runtime(options.threads);  // before anything is changed: there may be no such threads
   const RunLock lock(folder);
   if (!lock.note().empty()) print_warning(lock.note());
-  const SceneConfig scene = read_scene(folder.scene(), {}).config;
+  const ResumePoint point = find_resume_point(folder, options.from_start);
+  const SceneConfig scene = read_run_scene(folder);
   check_memory(scene);
-  const ResumePoint point = find_resume_point(folder);
   std::string what_happened;
-  for (const std::string& rejected : point.rejected) what_happened += rejected + "; it was renamed to *.damaged\n";
-  if (point.checkpoint && point.checkpoint->number("state.time") >= scene.time.end) {
+  for (const std::string& rejected : point.rejected) what_happened += rejected + "\n";
+  if (is_at_end(scene, point)) {
     if (!what_happened.empty()) print_warning(what_happened);
-    print_message(fmt::format("'{}' is done: t = {:g}, step {}; nothing is left to do.", options.folder, scene.time.end,
-                              point.checkpoint->integer("state.step")));
-    return 0;
+    return finish_run(folder, scene, *point.checkpoint);
   }
   if (point.checkpoint) what_happened += compare_programs(*point.checkpoint);
   if (!what_happened.empty()) print_warning(what_happened);
@@ -76,18 +83,25 @@ int resume_run(const ResumeOptions& options) {
 
 Verb make_resume_verb() {
   const auto options = std::make_shared<ResumeOptions>();
-  return {"resume",
-          "Go on with a run that was stopped, killed or failed",
-          {make_folder_argument(&options->folder), make_threads_option(&options->threads),
-           make_walltime_option(&options->max_walltime), make_quiet_flag(&options->quiet)},
-          "Examples:\n"
-          "  skein resume tumbling\n"
-          "  skein resume tumbling --max-walltime 8h --threads 2\n"
-          "The run goes on from its newest good checkpoint to its original end, "
-          "and is equal in every bit to one that was\n"
-          "never interrupted. A damaged checkpoint is named and an older one used.\n"
-          "The exit code is 0 if the end was reached, 75 if the run was stopped again, 65 if no checkpoint is good.",
-          [options] { return resume_run(*options); }};
+  return {
+      "resume",
+      "Go on with a run that was stopped, killed or failed",
+      {make_folder_argument(&options->folder),
+       make_flag("--from-start", &options->from_start,
+                 "Drop the frames of a run that has no good checkpoint, and start again at t = 0"),
+       make_threads_option(&options->threads), make_walltime_option(&options->max_walltime),
+       make_quiet_flag(&options->quiet)},
+      "Examples:\n"
+      "  skein resume tumbling\n"
+      "  skein resume tumbling --max-walltime 8h --threads 2\n"
+      "The run goes on from its newest good checkpoint to its original end, "
+      "and is equal in every bit to one that was\n"
+      "never interrupted. A checkpoint that is damaged or cannot be read is named and an older one used. A run that\n"
+      "has frames but no good checkpoint is left as it is, unless --from-start is given. One that is done is looked\n"
+      "over, and its index written anew if that is missing, damaged or old.\n"
+      "The exit code is 0 if the end was reached, 75 if the run was stopped again, 65 if no checkpoint is good, 74 if\n"
+      "none can be read.",
+      [options] { return resume_run(*options); }};
 }
 
 }  // namespace skein

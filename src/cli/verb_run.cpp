@@ -35,20 +35,16 @@ struct RunOptions {
   bool quiet = false;                                             ///< errors only
 };
 
-// An earlier run's folder is locked before anything in it is replaced; a new one as soon as it is there.
+// The folder is locked before anything in it is written or replaced.
 RunFolder make_folder(const RunOptions& options, const std::string& scene_text, std::optional<RunLock>& lock) {
-  std::error_code ignored;
-  if (options.overwrite && std::filesystem::exists(options.folder / "scene.toml", ignored)) {
-    const RunFolder earlier = RunFolder::open_begun(options.folder);
-    if (earlier.is_part(options.scene))
+  RunFolder folder = RunFolder::create(options.folder, scene_text, options.overwrite, [&](const RunFolder& found) {
+    if (found.is_part(options.scene))
       throw Error(ExitCode::cannot_create,
                   fmt::format("the scene '{}' belongs to the run that --overwrite would remove; copy it to another "
                               "folder first.",
                               options.scene));
-    lock.emplace(earlier);
-  }
-  RunFolder folder = RunFolder::create(options.folder, scene_text, options.overwrite);
-  if (!lock) lock.emplace(folder);
+    lock.emplace(found);
+  });
   if (!lock->note().empty()) print_warning(lock->note());
   return folder;
 }

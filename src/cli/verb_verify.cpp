@@ -22,8 +22,13 @@ int verify_run(const std::string& folder) {
                            make_terminal_line(check.status), check.frames, check.records, check.segments,
                            check.checkpoints, check.last_time));
   if (!check.problems.empty()) {
-    print_result(
-        fmt::format("verdict: damaged, {} problem{}\n", check.problems.size(), check.problems.size() == 1 ? "" : "s"));
+    const auto n_unreadable = static_cast<std::size_t>(check.unreadable);
+    const char* plural = check.problems.size() == 1 ? "" : "s";
+    if (n_unreadable == check.problems.size()) {
+      print_result(fmt::format("verdict: not known, {} problem{} of reading\n", n_unreadable, plural));
+      return static_cast<int>(ExitCode::io_error);
+    }
+    print_result(fmt::format("verdict: damaged, {} problem{}\n", check.problems.size(), plural));
     return static_cast<int>(ExitCode::damaged_data);
   }
   print_result(fmt::format("certificate: {}\nverdict: whole, no gap, no frame twice, unchanged since it was written\n",
@@ -42,7 +47,9 @@ Verb make_verify_verb() {
           "  skein verify tumbling\n"
           "Checked are all checksums of frames, step records and checkpoints, "
           "their chain from the scene to the last frame,\n"
-          "the frames' times, and that times are sums of the steps. The exit code is 0, or 65 if anything is damaged.",
+          "the frames' times, and that times are sums of the steps. The exit code is 0, 65 if anything is damaged, or "
+          "74 if\n"
+          "something cannot be read, and nothing that could be is damaged.",
           [folder] { return verify_run(*folder); }};
 }
 

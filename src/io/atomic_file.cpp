@@ -10,8 +10,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -102,15 +100,6 @@ void write_file_atomically(const std::filesystem::path& path, const std::string_
   AtomicFile file(path);
   file.write(content);
   file.commit();
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw Error(ExitCode::missing_input, fmt::format("cannot open '{}': {}.", path.string(), std::strerror(errno)));
-  std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) throw Error(ExitCode::damaged_data, fmt::format("cannot read '{}'.", path.string()));
-  return content;
 }
 
 }  // namespace skein

@@ -1,6 +1,6 @@
 #include <skein/core/error.hpp>
-#include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint.hpp>
+#include <skein/io/read_file.hpp>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -189,7 +189,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& path) {
   try {
     return decode_checkpoint(read_file(path));
   } catch (const Error& error) {
-    fail(fmt::format("checkpoint '{}' is damaged: {}", path.string(), error.what()));
+    const bool is_read = error.code() == ExitCode::damaged_data;
+    throw Error(error.code(), fmt::format("checkpoint '{}' {}: {}", path.string(),
+                                          is_read ? "is damaged" : "cannot be read", error.what()));
   }
 }
 

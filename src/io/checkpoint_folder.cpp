@@ -1,6 +1,9 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint_folder.hpp>
+#include <skein/io/folder_listing.hpp>
+#include <skein/io/run_leftovers.hpp>
+#include <skein/io/run_scene.hpp>
 #include <skein/io/trajectory_end.hpp>
 
 #include "segment.hpp"
@@ -31,21 +34,64 @@ std::optional<std::int64_t> number_of(const std::string& name) {
   return number;
 }
 
+// The new checkpoint is good whether or not this succeeds: one too many does no harm.
 void remove_older(const RunFolder& folder, const int keep) {
-  const auto numbers = CheckpointFolder::list_numbers(folder);
-  std::error_code ignored;  // one too many does no harm
-  for (std::size_t i = 0; i + static_cast<std::size_t>(keep) < numbers.size(); ++i)
-    fs::remove(CheckpointFolder::path_of(folder, numbers[i]), ignored);
+  try {
+    const auto numbers = CheckpointFolder::list_numbers(folder);
+    std::error_code ignored;
+    for (std::size_t i = 0; i + static_cast<std::size_t>(keep) < numbers.size(); ++i)
+      fs::remove(CheckpointFolder::path_of(folder, numbers[i]), ignored);
+  } catch (const Error&) {  // the next one tries again
+  }
 }
 
-std::string why_not(const RunFolder& folder, const fs::path& path, Checkpoint& checkpoint) {
+/// Why a checkpoint cannot serve.
+struct Fault {
+  ExitCode code = ExitCode::done;  ///< done: it can
+  fs::path path;
+  std::string text;
+};
+
+Fault why_not(const RunFolder& folder, const fs::path& path, Checkpoint& checkpoint) {
   try {
     checkpoint = read_checkpoint(path);
-    const std::string fault = find_checkpoint_fault(folder, checkpoint);
-    return fault.empty() ? "" : fmt::format("checkpoint '{}' cannot serve: {}", path.string(), fault);
+    check_checkpoint(folder, checkpoint);
+    return {};
   } catch (const Error& error) {
-    return error.what();
+    const std::string text = error.what();
+    const bool is_named = text.find(path.string()) != std::string::npos;
+    return {error.code(), path, is_named ? text : fmt::format("checkpoint '{}' cannot serve: {}", path.string(), text)};
   }
+}
+
+// Where no checkpoint can serve, starting again would drop whatever frames there are.
+void check_nothing_is_lost(const RunFolder& folder, const std::vector<Fault>& faults) {
+  constexpr const char* remedy =
+      "Put them back, or drop the frames and start again at t = 0: 'skein resume {} --from-start'.";
+  const std::string name = folder.path().string();
+  if (!faults.empty()) {
+    std::vector<std::string> texts;
+    ExitCode code = ExitCode::damaged_data;
+    for (const Fault& fault : faults) {
+      texts.push_back(fault.text);
+      if (fault.code == ExitCode::io_error) code = ExitCode::io_error;
+    }
+    throw Error(code, fmt::format("none of the {} checkpoints in '{}' is good:\n{}\n{}", faults.size(),
+                                  folder.checkpoints().string(), fmt::join(texts, "\n"),
+                                  fmt::format(fmt::runtime(remedy), name)));
+  }
+  if (holds_segments(folder))
+    throw Error(ExitCode::damaged_data,
+                fmt::format("'{}' has frames in '{}' but no checkpoint in '{}': they are gone or elsewhere. {}", name,
+                            folder.segments().string(), folder.checkpoints().string(),
+                            fmt::format(fmt::runtime(remedy), name)));
+}
+
+// @returns what became of the file
+std::string set_apart(const fs::path& path) {
+  std::error_code error;
+  fs::rename(path, path.string() + ".damaged", error);
+  return error ? fmt::format(" (it cannot be renamed: {})", error.message()) : " (it was renamed to *.damaged)";
 }
 
 }  // namespace
@@ -62,9 +108,8 @@ CheckpointFolder::CheckpointFolder(const RunFolder& folder) : folder_(folder) {
 
 std::vector<std::int64_t> CheckpointFolder::list_numbers(const RunFolder& folder) {
   std::vector<std::int64_t> numbers;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder.checkpoints(), error), end; !error && entry != end; entry.increment(error))
-    if (const auto number = number_of(entry->path().filename().string())) numbers.push_back(*number);
+  for (const std::string& name : list_names(folder.checkpoints()))
+    if (const auto number = number_of(name)) numbers.push_back(*number);
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
@@ -90,36 +135,32 @@ void CheckpointFolder::rehearse(const Checkpoint& checkpoint) const {
   file.sync();
 }
 
-std::string find_checkpoint_fault(const RunFolder& folder, const Checkpoint& checkpoint) {
+void check_checkpoint(const RunFolder& folder, const Checkpoint& checkpoint) {
   if (checkpoint.text("scene.xxh3") != checksum_of_file(folder.scene()))
-    return "it belongs to another scene than this folder's scene.toml";
-  return find_missing_segments(folder, read_trajectory_end(checkpoint), true);
+    throw Error(ExitCode::damaged_data, "it belongs to another scene than this folder's scene.toml");
+  check_trajectory(folder, read_trajectory_end(checkpoint), true);
 }
 
-ResumePoint find_resume_point(const RunFolder& folder) {
+ResumePoint find_resume_point(const RunFolder& folder, const bool from_start) {
+  check_scene_is_of_run(folder);
   const auto numbers = CheckpointFolder::list_numbers(folder);
   ResumePoint point;
-  std::vector<fs::path> bad;
+  std::vector<Fault> faults;
   for (auto number = numbers.rbegin(); number != numbers.rend() && !point.checkpoint; ++number) {
     point.path = CheckpointFolder::path_of(folder, *number);
     Checkpoint checkpoint;
-    const std::string fault = why_not(folder, point.path, checkpoint);
-    if (fault.empty()) {
+    Fault fault = why_not(folder, point.path, checkpoint);
+    if (fault.code == ExitCode::done)
       point.checkpoint = std::move(checkpoint);
-    } else {
-      point.rejected.push_back(fault);
-      bad.push_back(point.path);
-    }
+    else
+      faults.push_back(std::move(fault));
   }
-  if (!numbers.empty() && !point.checkpoint)
-    throw Error(
-        ExitCode::damaged_data,
-        fmt::format("none of the {} checkpoints in '{}' is good:\n{}\nThe scene is whole: 'skein run {} -o DIR' "
-                    "computes the run again.",
-                    numbers.size(), folder.checkpoints().string(), fmt::join(point.rejected, "\n"),
-                    folder.scene().string()));
-  std::error_code ignored;
-  for (const fs::path& path : bad) fs::rename(path, path.string() + ".damaged", ignored);
+  if (point.checkpoint && from_start)
+    throw Error(ExitCode::usage, fmt::format("'{}' is a good checkpoint, and the run would lose its frames: resume it "
+                                             "without --from-start, or compute it anew in another folder.",
+                                             point.path.string()));
+  if (!point.checkpoint && !from_start) check_nothing_is_lost(folder, faults);
+  for (const Fault& fault : faults) point.rejected.push_back(fault.text + set_apart(fault.path));
   return point;
 }
 

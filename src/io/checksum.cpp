@@ -1,8 +1,8 @@
 #include "checksum.hpp"
 
 #include <skein/core/error.hpp>
-#include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint.hpp>
+#include <skein/io/read_file.hpp>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -30,21 +30,16 @@ std::string Checksum::text() const { return fmt::format("{:016x}", XXH3_64bits_d
 
 std::string make_seal(const std::string_view bytes) { return std::string(seal_magic) + compute_seal(bytes); }
 
-std::string find_seal_fault(const std::filesystem::path& path) {
-  std::string bytes;
-  try {
-    bytes = read_file(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
+void check_seal(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path);
+  const auto fail = [](const std::string& what) { throw Error(ExitCode::damaged_data, what); };
   constexpr std::size_t seal_size = seal_magic.size() + 16;
   const std::size_t n_content = bytes.size() < seal_size ? 0 : bytes.size() - seal_size;
   if (bytes.size() < seal_size || std::string_view(bytes).substr(n_content, seal_magic.size()) != seal_magic)
-    return fmt::format("'{}' is cut off: its last bytes, {} of {}, are no checksum.", path.string(),
-                       std::min(seal_size, bytes.size()), bytes.size());
+    fail(fmt::format("'{}' is cut off: its last bytes, {} of {}, are no checksum.", path.string(),
+                     std::min(seal_size, bytes.size()), bytes.size()));
   if (std::string_view(bytes).substr(n_content) != make_seal(std::string_view(bytes).substr(0, n_content)))
-    return fmt::format("'{}' was changed: its checksum does not fit its {} bytes.", path.string(), bytes.size());
-  return "";
+    fail(fmt::format("'{}' was changed: its checksum does not fit its {} bytes.", path.string(), bytes.size()));
 }
 
 }  // namespace skein

@@ -31,7 +31,7 @@ class Checksum {
 /// follows its own end, but may crash on a damaged file: whoever is not sure of a file looks at its seal first.
 std::string make_seal(std::string_view bytes);
 
-/// What is wrong with a sealed file; empty if nothing is.
-std::string find_seal_fault(const std::filesystem::path& path);
+/// Reads all of a sealed file. @throws Error(damaged_data) if it is not as it was written, and as read_file
+void check_seal(const std::filesystem::path& path);
 
 }  // namespace skein

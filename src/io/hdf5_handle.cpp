@@ -19,6 +19,9 @@ std::string hdf5_reason() {
   return reason.empty() ? "HDF5 gives no reason" : reason;
 }
 
+// HDF5's drivers put the system's number into their messages.
+bool is_reason_of_the_system(const std::string& reason) { return reason.find("errno = ") != std::string::npos; }
+
 std::size_t size_of(const Number number) { return number == Number::float32 || number == Number::int32 ? 4 : 8; }
 
 hid_t type_in_memory(const Number number) {

@@ -52,6 +52,9 @@ class QuietHdf5 {
 /// What HDF5 itself says about the call that just failed: its innermost message.
 std::string hdf5_reason();
 
+/// Whether such a message tells that the system could not read or open, rather than that a content is wrong.
+bool is_reason_of_the_system(const std::string& reason);
+
 /// Extents of an array; empty for a single number.
 using Shape = std::vector<hsize_t>;
 

@@ -1,6 +1,7 @@
 #include "hdf5_reader.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/io/read_file.hpp>
 
 #include "checksum.hpp"
 
@@ -9,18 +10,31 @@
 #include <cmath>
 
 namespace skein {
+namespace {
+
+// A part of a run that is not there is damage of the run.
+void check_file(const std::filesystem::path& path, const bool with_seal) {
+  try {
+    with_seal ? check_seal(path) : check_is_file(path);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::missing_input) throw;
+    throw Error(ExitCode::damaged_data, fmt::format("'{}' is gone.", path.string()));
+  }
+}
+
+}  // namespace
 
 Hdf5Reader::Hdf5Reader(std::filesystem::path path, const bool check_seal)
     : path_(std::move(path)), file_(-1, H5Fclose) {
-  const std::string fault = check_seal ? find_seal_fault(path_) : "";
-  if (!fault.empty()) throw Error(ExitCode::damaged_data, fault);
+  check_file(path_, check_seal);
   file_ = {H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
   if (!file_.valid()) fail("/");
 }
 
 void Hdf5Reader::fail(const std::string& object) const {
-  throw Error(ExitCode::damaged_data,
-              fmt::format("cannot read '{}' in '{}': {}.", object, path_.string(), hdf5_reason()));
+  const std::string reason = hdf5_reason();
+  throw Error(is_reason_of_the_system(reason) ? ExitCode::io_error : ExitCode::damaged_data,
+              fmt::format("cannot read '{}' in '{}': {}.", object, path_.string(), reason));
 }
 
 void Hdf5Reader::reject(const std::string& object, const std::string& why) const {

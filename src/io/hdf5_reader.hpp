@@ -18,7 +18,8 @@ enum class Values { finite, any };
 /// What is read is what this program writes, and nothing else: see PlainDataset; and attributes of one number or one
 /// text. Links other than hard ones are not followed, so that a crafted file cannot make the program read others.
 ///
-/// @throws Error(damaged_data) from every function, naming the file, the object and what is wrong with it
+/// @throws Error(damaged_data) from every function, naming the file, the object and what is wrong with it;
+///         Error(io_error) where the system does not give what the file holds
 class Hdf5Reader {
  public:
   /// @param check_seal  read all of the file first, and open it only if it is as it was written

@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 
 #include <fcntl.h>
 #include <fmt/format.h>

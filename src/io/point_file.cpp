@@ -1,6 +1,6 @@
 #include <skein/core/error.hpp>
-#include <skein/io/atomic_file.hpp>
 #include <skein/io/point_file.hpp>
+#include <skein/io/read_file.hpp>
 
 #include <fmt/format.h>
 

@@ -1,9 +1,11 @@
 #include <skein/core/error.hpp>
 #include <skein/io/checkpoint_folder.hpp>
+#include <skein/io/folder_listing.hpp>
 #include <skein/io/run_check.hpp>
+#include <skein/io/run_leftovers.hpp>
+#include <skein/io/run_scene.hpp>
 #include <skein/io/trajectory_end.hpp>
 #include <skein/scene/frame_times.hpp>
-#include <skein/scene/scene_file.hpp>
 
 #include "hdf5_reader.hpp"
 #include "segment_check.hpp"
@@ -11,8 +13,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
-#include <set>
+#include <string>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -23,7 +27,7 @@ class RunChecker {
  public:
   explicit RunChecker(const RunFolder& folder)
       : folder_(folder),
-        scene_(read_scene(folder.scene(), {}).config),
+        scene_(read_run_scene(folder)),
         layout_(make_layout(scene_)),
         frames_(make_frame_series(layout_, scene_.output)),
         records_(make_step_series(layout_)) {
@@ -33,11 +37,11 @@ class RunChecker {
 
   RunCheck check() {
     read_index();
-    for (std::int64_t number = 0; number < listed_.size(); ++number)
+    for (std::int64_t number = 0; number < n_segments_; ++number)
       if (!check_segment(number)) break;
     compare_with_index();
-    check_unlisted_segments();
-    check_checkpoints();
+    try_to([this] { note_leftovers(); });
+    try_to([this] { check_checkpoints(); });
     check_.last_time = last_frame_time_;
     return check_;
   }
@@ -54,22 +58,45 @@ class RunChecker {
     check_.problems.push_back(fmt::format(text, std::forward<Values>(values)...));
   }
 
+  void note(std::string text) { check_.notes.push_back(std::move(text)); }
+
+  void report(const Error& error, const std::string& remark = "") {
+    std::string text = error.what() + remark;
+    const auto& known = check_.problems;  // one folder may be looked into twice
+    if (std::find(known.begin(), known.end(), text) != known.end()) return;
+    check_.problems.push_back(std::move(text));
+    if (error.code() == ExitCode::io_error) ++check_.unreadable;
+  }
+
+  /// What cannot be done is a problem, and the rest is checked all the same.
+  template <class Action>
+  void try_to(const Action& action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      report(error);
+    }
+  }
+
   void read_index();
   bool check_segment(std::int64_t number);
   void check_frames(const SegmentMoments& moments);
   void check_frame(const std::string& name, double time, std::int64_t step);
   void check_records(const SegmentMoments& moments);
   void compare_with_index();
-  void check_unlisted_segments();
+  void count_segments();
+  void note_leftovers();
   void check_checkpoints();
   void check_checkpoint(std::int64_t number);
+  void check_checkpoint_ahead(const fs::path& path, const TrajectoryEnd& end);
 
   RunFolder folder_;
   SceneConfig scene_;
   TrajectoryLayout layout_;
   Series frames_, records_;
   RunCheck check_;
-  SegmentList listed_;  // by the index
+  SegmentList listed_;           // by the index
+  std::int64_t n_segments_ = 0;  // that are looked for: the listed ones or, without an index, those that are there
   std::string listed_checksum_;
   std::map<std::int64_t, TrajectoryEnd> ends_;  // after so many segments
   std::vector<double> record_times_{0.0};       // at index k: after k accepted steps
@@ -81,10 +108,19 @@ void RunChecker::read_index() {
     const Hdf5Reader index(folder_.index());
     listed_ = read_segment_list(index);
     check_.status = index.text_attribute("/parameters", "status");
+    n_segments_ = listed_.size();
     if (listed_.size() > 0) listed_checksum_ = index.text_attribute("/parameters/segments", "xxh3");
   } catch (const Error& error) {
-    check_.problems.push_back(error.what());
+    report(error, " 'skein resume' writes this file anew.");
+    try_to([this] { count_segments(); });
   }
+}
+
+// Where the index does not list them: those that follow each other from the first on.
+void RunChecker::count_segments() {
+  const auto names = list_names(folder_.segments());
+  while (std::binary_search(names.begin(), names.end(), fs::path(segment_name(n_segments_)).filename().string()))
+    ++n_segments_;
 }
 
 bool RunChecker::check_segment(const std::int64_t number) {
@@ -93,7 +129,7 @@ bool RunChecker::check_segment(const std::int64_t number) {
   try {
     moments = read_segment_moments(folder_, number, frames_, records_);
   } catch (const Error& error) {
-    report("{} What follows it cannot be checked.", error.what());
+    report(error, " What follows it cannot be checked.");
     return false;
   }
   const Segment& segment = moments.label.segment;
@@ -104,10 +140,11 @@ bool RunChecker::check_segment(const std::int64_t number) {
   if (segment.checksum != moments.checksum)
     report("'{}' was changed: its contents have the xxh3 {}, its label says {}", name, moments.checksum,
            segment.checksum);
-  if (listed_.frames[number] != segment.n_frames || listed_.steps[number] != segment.n_records)
+  const bool is_listed = number < listed_.size();
+  if (is_listed && (listed_.frames[number] != segment.n_frames || listed_.steps[number] != segment.n_records))
     report("'{}' holds {} frames and {} steps, and the index lists {} and {}", name, segment.n_frames,
            segment.n_records, listed_.frames[number], listed_.steps[number]);
-  if (segment.n_frames > 0 && listed_.last_time[number] != segment.last_time)
+  if (is_listed && segment.n_frames > 0 && listed_.last_time[number] != segment.last_time)
     report("'{}' ends at t = {}, and the index says {}", name, segment.last_time, listed_.last_time[number]);
   if (segment.first_frame != check_.frames)
     report("'{}' begins with frame {}, and frame {} comes next", name, segment.first_frame, check_.frames);
@@ -144,7 +181,8 @@ void RunChecker::check_frames(const SegmentMoments& moments) {
 void RunChecker::check_frame(const std::string& name, const double time, const std::int64_t step) {
   const double due = find_frame_time(scene_, check_.frames);
   // A run that failed adds the last state it could reach.
-  const bool is_last_state = check_.status == "failed" && time == record_times_.back() && time < due;
+  const bool is_last_state =
+      (check_.status == "failed" || check_.status == "unknown") && time == record_times_.back() && time < due;
   if (time != due && !is_last_state)
     report("'{}': frame {} is at t = {} and should be at {}", name, check_.frames, time, due);
   if (check_.frames > 0 && !(time > last_frame_time_))
@@ -158,38 +196,38 @@ void RunChecker::check_frame(const std::string& name, const double time, const s
 }
 
 void RunChecker::compare_with_index() {
-  if (check_.segments < listed_.size()) return;  // said already
-  if (listed_.size() > 0 && listed_checksum_ != check_.checksum)
+  if (check_.segments < n_segments_) return;  // said already
+  if (!listed_checksum_.empty() && listed_checksum_ != check_.checksum)
     report("the index says that the chain ends with {}, the segments say {}", listed_checksum_, check_.checksum);
   if (check_.status == "done" && (last_frame_time_ != scene_.time.end || record_times_.back() != scene_.time.end))
     report(
         "the run says that it is done, but its last frame is at t = {}, its last step at {}, and the scene ends at {}",
         last_frame_time_, record_times_.back(), scene_.time.end);
   if (check_.status == "running")
-    check_.notes.emplace_back(
-        "the run says that it is running: if it is not, it was killed, and 'skein resume' goes on");
+    note(fmt::format("the run says that it is {}: if it is not, it was killed, and 'skein resume' goes on",
+                     check_.status));
 }
 
-void RunChecker::check_unlisted_segments() {
-  std::set<std::string> listed;
-  for (std::int64_t number = 0; number < listed_.size(); ++number) listed.insert(segment_name(number));
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder_.segments(), ignored)) {
-    const std::string name = "segments/" + entry.path().filename().string();
-    if (listed.count(name) == 0)
-      check_.notes.push_back(
-          fmt::format("'{}' is not in the index; 'skein resume' removes it and computes it again", name));
-  }
+void RunChecker::note_leftovers() {
+  for (const fs::path& path : find_leftovers(folder_, n_segments_))
+    note(
+        fmt::format("'{}' does not belong to the run; 'skein resume' removes it, and computes again "
+                    "what it may hold",
+                    path.string()));
 }
 
 void RunChecker::check_checkpoints() {
-  for (const std::int64_t number : CheckpointFolder::list_numbers(folder_)) check_checkpoint(number);
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder_.checkpoints(), ignored)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".partial" || extension == ".damaged")
-      check_.notes.push_back(fmt::format("'checkpoints/{}' is no longer used", entry.path().filename().string()));
-  }
+  const auto numbers = CheckpointFolder::list_numbers(folder_);
+  for (const std::int64_t number : numbers) check_checkpoint(number);
+  for (const std::string& name : list_names(folder_.checkpoints()))
+    if (name.ends_with(".damaged")) note(fmt::format("'checkpoints/{}' is no longer used", name));
+  if (!numbers.empty() || !holds_segments(folder_)) return;
+  if (check_.status == "done")
+    note(
+        fmt::format("there is no checkpoint in '{}'; a run that is done does without", folder_.checkpoints().string()));
+  else
+    report("there is no checkpoint in '{}', though the run has frames: it cannot go on",
+           folder_.checkpoints().string());
 }
 
 void RunChecker::check_checkpoint(const std::int64_t number) {
@@ -203,9 +241,7 @@ void RunChecker::check_checkpoint(const std::int64_t number) {
     const auto found = ends_.find(end.segments);
     if (found == ends_.end()) {
       // A segment that the index does not list yet is no damage: the checkpoint says whether it is whole.
-      const std::string fault = find_missing_segments(folder_, end, true);
-      if (!fault.empty()) report("checkpoint '{}': {}", path.string(), fault);
-      return;
+      return check_checkpoint_ahead(path, end);
     }
     if (found->second.checksum != end.checksum || found->second.frames != end.frames ||
         found->second.records != end.records)
@@ -215,12 +251,31 @@ void RunChecker::check_checkpoint(const std::int64_t number) {
       report("checkpoint '{}' is at t = {}, step {}; the trajectory it was made for ends at t = {}, step {}",
              path.string(), time, checkpoint.integer("state.step"), record_times_.at(end.records), end.records);
   } catch (const Error& error) {
-    check_.problems.push_back(error.what());
+    report(error);
+  }
+}
+
+void RunChecker::check_checkpoint_ahead(const fs::path& path, const TrajectoryEnd& end) {
+  try {
+    check_trajectory(folder_, end, true);
+  } catch (const Error& error) {
+    report(Error(error.code(), fmt::format("checkpoint '{}': {}", path.string(), error.what())));
   }
 }
 
 }  // namespace
 
-RunCheck check_run(const fs::path& folder) { return RunChecker(RunFolder::open(folder)).check(); }
+RunCheck check_run(const fs::path& path) {
+  const RunFolder folder = RunFolder::open_begun(path);
+  try {
+    check_scene_is_of_run(folder);
+  } catch (const Error& error) {  // whatever the scene is compared with would seem wrong
+    if (error.code() != ExitCode::damaged_data) throw;
+    RunCheck check;
+    check.problems.push_back(error.what());
+    return check;
+  }
+  return RunChecker(folder).check();
+}
 
 }  // namespace skein

@@ -1,86 +1,97 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/folder_listing.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
+
+#include "run_file_names.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cctype>
-#include <string_view>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace skein {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view partial_suffix = ".partial";
+enum class Content { nothing, remains, run, other };
 
-std::string_view without_partial(std::string_view name) {
-  if (name.ends_with(partial_suffix)) name.remove_suffix(partial_suffix.size());
-  return name;
+bool is_file(const fs::path& path) { return fs::is_regular_file(fs::symlink_status(path)); }
+
+// Half of a scene that this program was writing begins with the scene's first key, as far as it goes.
+bool begins_as(const std::string& scene, const fs::path& half) {
+  const std::string key = scene.substr(0, scene.find('=') + 1), text = read_file(half);
+  return text.substr(0, key.size()) == key.substr(0, text.size());
 }
 
-bool is_file_of_a_run(const std::string& name) {
-  constexpr std::array<std::string_view, 7> names = {"scene.toml",   "trajectory.h5", "trajectory.xdmf", "run.log",
-                                                     "events.jsonl", "STOP",          "OUTPUT_NOW"};
-  for (const std::string_view known : names)
-    if (without_partial(name) == known) return true;
-  return false;
+// What a run leaves that is killed before its scene is there. Whatever else lies there is somebody's.
+bool is_only_begun(const RunFolder& folder, const std::vector<std::string>& names, const std::string& scene) {
+  bool has_segments = false;
+  for (const std::string& name : names) {
+    const fs::path path = folder.path() / name;
+    if (path == folder.segments() && fs::is_directory(fs::symlink_status(path)) && list_names(path).empty())
+      has_segments = true;
+    else if (!is_file(path) || (path != folder.lock() && !(name == "scene.toml.partial" && begins_as(scene, path))))
+      return false;
+  }
+  return has_segments;
 }
 
-// What `skein analyze` and `skein plot` write.
-bool is_table(const std::string& name) {
-  const std::string_view whole = without_partial(name);
-  return whole == "diagnostics.h5" || whole == "diagnostics.csv";
+Content look_into(const RunFolder& folder, const std::string& scene) {
+  if (!is_there(folder.path())) return Content::nothing;
+  if (!fs::is_directory(folder.path())) return Content::other;
+  const auto names = list_names(folder.path());
+  if (names.empty()) return Content::nothing;
+  if (is_only_begun(folder, names, scene)) return Content::remains;
+  // A scene.toml alone may be somebody's own: the folder of segments tells a run.
+  return fs::is_directory(folder.segments()) && is_there(folder.scene()) ? Content::run : Content::other;
 }
 
-bool is_picture(const std::string& name) {
-  constexpr std::array<std::string_view, 7> pictures = {"shapes",  "angle", "curvature", "energy",
-                                                        "extrema", "power", "defects"};
-  const std::string_view whole = without_partial(name);
-  for (const std::string_view suffix : {".png", ".pdf", ".svg"})
-    for (const std::string_view picture : pictures)
-      if (whole.ends_with(suffix) && whole.substr(0, whole.size() - suffix.size()) == picture) return true;
-  return whole == "movie.mp4";
+void check_may_be_used(const fs::path& path, const Content content, const bool overwrite) {
+  if (content == Content::other)
+    throw Error(ExitCode::cannot_create,
+                fmt::format("'{}' exists and is not a run folder; name another output folder.", path.string()));
+  if (content == Content::run && !overwrite)
+    throw Error(ExitCode::cannot_create, fmt::format("'{}' holds a run already; resume it, name another output folder, "
+                                                     "or give --overwrite.",
+                                                     path.string()));
 }
 
-// Segments and checkpoints: digits and ".h5" or ".checkpoint", also what became of them.
-bool is_numbered_file(const std::string& name) {
-  std::string_view stem = without_partial(name);
-  for (const std::string_view suffix : {".damaged", ".checkpoint", ".h5"})
-    if (stem.ends_with(suffix)) stem.remove_suffix(suffix.size());
-  if (stem.size() == name.size()) return false;
-  for (const char c : stem)
-    if (std::isdigit(static_cast<unsigned char>(c)) == 0) return false;
-  return !stem.empty();
+void check_is_folder(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::none)
+    throw Error(ExitCode::io_error, fmt::format("cannot look at '{}': {}.", path.string(), error.message()));
+  if (status.type() != fs::file_type::directory)
+    throw Error(ExitCode::missing_input, fmt::format("there is no run folder '{}'.", path.string()));
 }
 
-// A scene.toml alone may be somebody's own: the folder of segments tells a run, from its first moment on.
-bool holds_a_run(const RunFolder& folder) {
-  if (!fs::is_directory(folder.segments())) return false;
-  const bool has_nothing_else = std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1;
-  return fs::exists(folder.scene()) || has_nothing_else;
+// Another folder that a link leads to is not this run's.
+bool is_own_folder(const fs::path& folder) { return fs::is_directory(fs::symlink_status(folder)); }
+
+void add_files(std::vector<fs::path>& files, const fs::path& folder, bool (*is_ours)(const std::string&)) {
+  for (const std::string& name : list_names(folder))
+    if (is_ours(name) && !fs::is_directory(folder / name)) files.push_back(folder / name);
 }
 
-void check_present(const fs::path& folder, const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored))
-    throw Error(ExitCode::missing_input,
-                fmt::format("'{}' is not a run folder: it has no {}.", folder.string(), file.filename().string()));
-}
-
-void remove_files(const fs::path& folder, bool (*is_ours)(const std::string&)) {
-  if (!fs::is_directory(folder)) return;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (!entry.is_directory() && is_ours(entry.path().filename().string())) fs::remove(entry.path());
+// In the order in which they go: the index first, so that a reader never follows it to segments that are gone.
+std::vector<fs::path> list_files_of_run(const RunFolder& folder) {
+  std::vector<fs::path> files{folder.index()};
+  add_files(files, folder.segments(), is_numbered_file);
+  add_files(files, folder.checkpoints(), is_numbered_file);
+  if (is_own_folder(folder.analysis())) add_files(files, folder.analysis(), is_table);
+  if (is_own_folder(folder.plots())) add_files(files, folder.plots(), is_picture);
+  add_files(files, folder.path(),
+            [](const std::string& name) { return is_file_of_a_run(name) && name != "scene.toml"; });
+  return files;
 }
 
 // A folder of results goes with the last of them; what somebody else put there stays.
-void remove_results(const fs::path& folder, bool (*is_ours)(const std::string&)) {
-  if (!fs::is_directory(fs::symlink_status(folder))) return;
-  remove_files(folder, is_ours);
-  if (fs::is_empty(folder)) fs::remove(folder);
+void remove_if_empty(const fs::path& folder) {
+  if (is_own_folder(folder) && fs::is_empty(folder)) fs::remove(folder);
 }
 
 // The way from a folder down to a path whose links are resolved; empty if it is not below. Folders are compared as the
@@ -104,51 +115,47 @@ bool is_way_to_part(const fs::path& way) {
 
 }  // namespace
 
-RunFolder RunFolder::create(const fs::path& path, const std::string& scene, const bool overwrite) {
+RunFolder RunFolder::create(const fs::path& path, const std::string& scene, const bool overwrite, const Use& use) {
   if (path.empty()) throw Error(ExitCode::usage, "the run folder has no name");
   RunFolder folder(path);
   const std::string name = path.string();
   try {
-    if (fs::exists(path) && (!fs::is_directory(path) || !fs::is_empty(path))) {
-      if (!fs::is_directory(path) || !holds_a_run(folder))
-        throw Error(ExitCode::cannot_create,
-                    fmt::format("'{}' exists and is not a run folder; name another output folder.", name));
-      if (!overwrite)
-        throw Error(
-            ExitCode::cannot_create,
-            fmt::format("'{}' holds a run already; resume it, name another output folder, or give --overwrite.", name));
-      // The index goes first, so that a reader never follows it to segments that are gone.
-      fs::remove(folder.index());
-      remove_files(folder.segments(), is_numbered_file);
-      remove_files(folder.checkpoints(), is_numbered_file);
-      remove_results(folder.analysis(), is_table);
-      remove_results(folder.plots(), is_picture);
-      remove_files(path, is_file_of_a_run);
-    }
+    const Content content = look_into(folder, scene);
+    check_may_be_used(path, content, overwrite);
     // Of two that start at once in a new folder only one makes this folder.
-    if (!fs::create_directories(folder.segments()) && !overwrite)
+    if (!fs::create_directories(folder.segments()) && content == Content::nothing)
       throw Error(ExitCode::cannot_create, fmt::format("another run has just begun in '{}'.", name));
+    if (use) use(folder);
+    const auto earlier = content == Content::run ? list_files_of_run(folder) : std::vector<fs::path>{};
+    // Once the new scene is there the rest is no run of it any more, whatever happens.
+    write_file_atomically(folder.scene(), scene);
+    for (const fs::path& file : earlier) fs::remove(file);
+    if (content == Content::run)
+      for (const fs::path& results : {folder.analysis(), folder.plots()}) remove_if_empty(results);
   } catch (const fs::filesystem_error& error) {
     const bool disk = error.code() == std::errc::no_space_on_device || error.code() == std::errc::io_error;
     throw Error(disk ? ExitCode::io_error : ExitCode::cannot_create,
                 fmt::format("cannot create the run folder '{}': {}.", name, error.code().message()));
   }
-  write_file_atomically(folder.scene(), scene);
   return folder;
 }
 
 RunFolder RunFolder::open_begun(const fs::path& path) {
   RunFolder folder(path);
-  std::error_code ignored;
-  if (!fs::is_directory(path, ignored))
-    throw Error(ExitCode::missing_input, fmt::format("there is no run folder '{}'.", path.string()));
-  check_present(path, folder.scene());
+  check_is_folder(path);
+  if (!is_there(folder.scene()))
+    throw Error(ExitCode::missing_input, fmt::format("'{}' is not a run folder: it has no scene.toml.", path.string()));
   return folder;
 }
 
 RunFolder RunFolder::open(const fs::path& path) {
   RunFolder folder = open_begun(path);
-  check_present(path, folder.index());
+  if (!is_there(folder.index()))
+    throw Error(
+        ExitCode::missing_input,
+        fmt::format("'{0}' has no trajectory.h5: the run wrote no frame yet, or has lost it; 'skein resume {0}' "
+                    "writes it.",
+                    path.string()));
   return folder;
 }
 

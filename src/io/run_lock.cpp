@@ -1,5 +1,5 @@
 #include <skein/core/error.hpp>
-#include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_lock.hpp>
 
 #include "local_file_system.hpp"

@@ -1,13 +1,17 @@
 #include <skein/core/error.hpp>
+#include <skein/io/folder_listing.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 
+#include "scene_in_index.hpp"
 #include "segment_list.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace skein {
@@ -22,16 +26,19 @@ std::int64_t sum(const std::vector<std::int64_t>& counts) {
 RunSummary read_run_summary(const std::filesystem::path& path) {
   const RunFolder folder = RunFolder::open(path);
   const Hdf5Reader index(folder.index());
+  compare_with_scene_in_index(folder, index);
   SegmentList list = read_segment_list(index);
   for (std::int64_t number = 0; number < list.size(); ++number) {
     const auto segment = path / segment_name(number);
-    std::error_code ignored;
-    if (!std::filesystem::exists(segment, ignored))
+    if (!is_there(segment))
       throw Error(ExitCode::damaged_data, fmt::format("'{}' is gone: its frames are lost.", segment.string()));
+    check_is_file(segment);
   }
 
   RunSummary summary;
   if (index.has_attribute("/parameters", "title")) summary.title = index.text_attribute("/parameters", "title");
+  if (index.has_attribute("/parameters/segments", "chain"))
+    summary.chain = index.text_attribute("/parameters/segments", "chain");
   summary.status = index.text_attribute("/parameters", "status");
   summary.frames = sum(list.frames);
   summary.steps = sum(list.steps);

@@ -1,6 +1,6 @@
 #include "segment.hpp"
 
-#include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 
 #include "moments.hpp"
 

@@ -1,5 +1,7 @@
 #include "segment_list.hpp"
 
+#include "segment_chain.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -36,6 +38,7 @@ void write_segment_list(Hdf5Writer& index, const std::vector<Segment>& segments)
   index.write(steps_name, Number::int64, shape, list.steps.data());
   index.write(last_time_name, Number::float64, shape, list.last_time.data(), "time");
   if (!segments.empty()) index.set_attribute("/parameters/segments", "xxh3", segments.back().checksum);
+  index.set_attribute("/parameters/segments", "chain", list_checksums(segments));
 }
 
 SegmentList read_segment_list(const Hdf5Reader& index) {

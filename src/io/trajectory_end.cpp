@@ -6,6 +6,17 @@
 #include <fmt/format.h>
 
 namespace skein {
+namespace {
+
+SegmentLabel read_label(const RunFolder& folder, const std::int64_t number, const bool check_seal) {
+  try {
+    return read_segment_label(folder, number, check_seal);
+  } catch (const Error& error) {
+    throw Error(error.code(), fmt::format("its trajectory is broken: {}", error.what()));
+  }
+}
+
+}  // namespace
 
 TrajectoryEnd find_trajectory_start(const RunFolder& folder) { return {0, 0, 0, checksum_of_file(folder.scene())}; }
 
@@ -22,27 +33,25 @@ TrajectoryEnd read_trajectory_end(const Checkpoint& checkpoint) {
           checkpoint.integer("trajectory.records"), checkpoint.text("trajectory.xxh3")};
 }
 
-std::string find_missing_segments(const RunFolder& folder, const TrajectoryEnd& end, const bool check_seals) {
+void check_trajectory(const RunFolder& folder, const TrajectoryEnd& end, const bool check_seals) {
   std::string checksum = checksum_of_file(folder.scene());
   std::int64_t n_frames = 0, n_records = 0;
   for (std::int64_t number = 0; number < end.segments; ++number) {
-    try {
-      const SegmentLabel label = read_segment_label(folder, number, check_seals);
-      if (label.segment.number != number || label.previous_checksum != checksum ||
-          label.segment.first_frame != n_frames || label.segment.first_record != n_records)
-        return fmt::format("its trajectory is broken: '{}' does not follow the segment before", segment_name(number));
-      n_frames += label.segment.n_frames;
-      n_records += label.segment.n_records;
-      checksum = label.segment.checksum;
-    } catch (const Error& error) {
-      return fmt::format("its trajectory is broken: {}", error.what());
-    }
+    const SegmentLabel label = read_label(folder, number, check_seals);
+    if (label.segment.number != number || label.previous_checksum != checksum ||
+        label.segment.first_frame != n_frames || label.segment.first_record != n_records)
+      throw Error(
+          ExitCode::damaged_data,
+          fmt::format("its trajectory is broken: '{}' does not follow the segment before", segment_name(number)));
+    n_frames += label.segment.n_frames;
+    n_records += label.segment.n_records;
+    checksum = label.segment.checksum;
   }
   if (n_frames != end.frames || n_records != end.records || checksum != end.checksum)
-    return fmt::format(
-        "its trajectory has {} frames and {} steps in {} segments (xxh3 {}), this folder's {} and {} ({})", end.frames,
-        end.records, end.segments, end.checksum, n_frames, n_records, checksum);
-  return "";
+    throw Error(
+        ExitCode::damaged_data,
+        fmt::format("its trajectory has {} frames and {} steps in {} segments (xxh3 {}), this folder's {} and {} ({})",
+                    end.frames, end.records, end.segments, end.checksum, n_frames, n_records, checksum));
 }
 
 }  // namespace skein

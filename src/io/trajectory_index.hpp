@@ -19,7 +19,8 @@ namespace skein {
 ///   /parameters                              attributes: the layout's, and status
 ///     fiber_sections, fiber_nodes_per_section, fiber_radius, first_node, first_section    [n_fibers]
 ///     blob, node_fiber, node_section         [n_nodes]
-///     segments/{frames, steps, last_time}    [n_segments]; attribute xxh3: end of the chain so far
+///     segments/{frames, steps, last_time}    [n_segments]; attribute xxh3: end of the chain so far; attribute chain:
+///                                            the xxh3 of every segment, 16 digits each, one after the other
 ///     and the layout's parameters
 ///
 /// Springs are not listed: there are hundreds for each node, and the scene says which (docs/model.md).

@@ -3,7 +3,7 @@
 #include <skein/io/trajectory_reader.hpp>
 
 #include "moments.hpp"
-#include "segment.hpp"
+#include "segment_chain.hpp"
 #include "series.hpp"
 
 #include <fmt/format.h>
@@ -64,15 +64,22 @@ SegmentFrames read_frames(const Hdf5Reader& file, const Series& series, const st
 TrajectoryReader::TrajectoryReader(const RunFolder& folder, const SceneConfig& scene)
     : folder_(folder), output_(scene.output), first_frames_{0} {
   layout_.fibers = make_fibers(scene.fibers);
-  for (const std::int64_t n_frames : read_run_summary(folder.path()).segment_frames)
-    first_frames_.push_back(first_frames_.back() + n_frames);
+  const RunSummary summary = read_run_summary(folder.path());
+  chain_ = summary.chain;
+  for (const std::int64_t n_frames : summary.segment_frames) first_frames_.push_back(first_frames_.back() + n_frames);
+}
+
+std::filesystem::path TrajectoryReader::path_of(const std::size_t segment) const {
+  return folder_.path() / segment_name(static_cast<std::int64_t>(segment));
 }
 
 void TrajectoryReader::for_each_frame(const std::function<void(const Frame&)>& visit) const {
   const Series series = make_frame_series(layout_, output_);
   double last_time = -std::numeric_limits<double>::infinity();
   for (std::size_t number = 0; number + 1 < first_frames_.size(); ++number) {
-    const Hdf5Reader file(folder_.path() / segment_name(static_cast<std::int64_t>(number)));
+    const auto path = path_of(number);
+    const Hdf5Reader file(path);
+    check_is_listed(file, path, static_cast<std::int64_t>(number), chain_);
     const SegmentFrames frames = read_frames(file, series, first_frames_[number + 1] - first_frames_[number]);
     for (std::size_t row = 0; row < frames.moments.n_rows(); ++row) {
       const double time = frames.moments.time[row];
@@ -89,7 +96,9 @@ Frame TrajectoryReader::read_frame(const std::int64_t number) const {
   SKEIN_REQUIRE(number >= 0 && number < n_frames(), fmt::format("frame {} of {}", number, n_frames()));
   const auto after = std::upper_bound(first_frames_.begin(), first_frames_.end(), number);
   const std::int64_t first = *(after - 1), segment = after - 1 - first_frames_.begin();
-  const Hdf5Reader file(folder_.path() / segment_name(segment));
+  const auto path = path_of(static_cast<std::size_t>(segment));
+  const Hdf5Reader file(path);
+  check_is_listed(file, path, segment, chain_);
   const SegmentFrames frames = read_frames(file, make_frame_series(layout_, output_), *after - first);
   return frames.frame(static_cast<std::size_t>(number - first));
 }
@@ -97,7 +106,9 @@ Frame TrajectoryReader::read_frame(const std::int64_t number) const {
 std::vector<double> TrajectoryReader::read_times() const {
   std::vector<double> times;
   for (std::size_t number = 0; number + 1 < first_frames_.size(); ++number) {
-    const Hdf5Reader file(folder_.path() / segment_name(static_cast<std::int64_t>(number)));
+    const auto path = path_of(number);
+    const Hdf5Reader file(path);
+    check_is_listed(file, path, static_cast<std::int64_t>(number), chain_);
     const Moments moments = read_frame_moments(file, first_frames_[number + 1] - first_frames_[number]);
     times.insert(times.end(), moments.time.begin(), moments.time.end());
   }

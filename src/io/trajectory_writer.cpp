@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/core/stopwatch.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/run_leftovers.hpp>
 #include <skein/io/trajectory_writer.hpp>
 
 #include "segment.hpp"
@@ -8,10 +9,11 @@
 #include "trajectory_index.hpp"
 #include "xdmf.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <set>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -19,17 +21,13 @@
 namespace skein {
 namespace {
 
-// Segments that the index does not list, and files that a killed process left unfinished.
-void remove_leftovers(const RunFolder& folder, const std::size_t n_segments) {
-  std::set<std::string> listed;
-  for (std::size_t number = 0; number < n_segments; ++number)
-    listed.insert(std::filesystem::path(segment_name(static_cast<std::int64_t>(number))).filename().string());
-  std::error_code ignored;  // what stays is overwritten later
-  for (const auto& entry : std::filesystem::directory_iterator(folder.segments(), ignored))
-    if (listed.count(entry.path().filename().string()) == 0) std::filesystem::remove(entry.path(), ignored);
-  for (const auto& path : {folder.path(), folder.checkpoints()})
-    for (const auto& entry : std::filesystem::directory_iterator(path, ignored))
-      if (entry.path().extension() == ".partial") std::filesystem::remove(entry.path(), ignored);
+// Of a run whose segments were moved away, and which starts again.
+void make_folder_of_segments(const RunFolder& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder.segments(), error);
+  if (error)
+    throw Error(ExitCode::io_error,
+                fmt::format("cannot create '{}' (0 bytes written): {}.", folder.segments().string(), error.message()));
 }
 
 }  // namespace
@@ -55,21 +53,21 @@ struct TrajectoryWriter::Parts {
   std::string checksum;  // end of the chain
   std::string status = "running";
   bool index_is_old = true;
+  bool begun = false;  // until then nothing in the folder is changed
   bool failed = false;
   WallClock::time_point last_close = WallClock::now();
   double seconds_of_close = 0.0;
   double seconds = 0.0;
   std::uint64_t bytes = 0;
 
-  void take_over(const TrajectoryEnd& end);
+  void read_up_to(const TrajectoryEnd& end);
   void save();
   void write_segment_file();
   void save_when_due();
 };
 
-void TrajectoryWriter::Parts::take_over(const TrajectoryEnd& end) {
-  const std::string fault = find_missing_segments(folder, end, false);
-  if (!fault.empty()) throw Error(ExitCode::damaged_data, fault);
+void TrajectoryWriter::Parts::read_up_to(const TrajectoryEnd& end) {
+  check_trajectory(folder, end, false);
   double last_time = std::numeric_limits<double>::quiet_NaN();
   for (std::int64_t number = 0; number < end.segments; ++number) {
     SegmentLabel label = read_segment_label(folder, number, false);
@@ -87,6 +85,7 @@ void TrajectoryWriter::Parts::take_over(const TrajectoryEnd& end) {
 
 // On an error the buffers and index_is_old still say what is left to do.
 void TrajectoryWriter::Parts::save() {
+  SKEIN_REQUIRE(begun, "a trajectory begins before anything of it is saved");
   const WallClock::time_point start = WallClock::now();
   failed = true;
   write_segment_file();
@@ -130,6 +129,7 @@ TrajectoryWriter::TrajectoryWriter(const RunFolder& folder, TrajectoryLayout lay
   SKEIN_REQUIRE(layout.blobs.size() == static_cast<std::size_t>(count_nodes(layout.fibers)), "one blob for each node");
   parts_ = std::make_unique<Parts>(folder, std::move(layout), output, limits);
   const Stopwatch stopwatch(parts_->seconds);
+  parts_->begun = true;
   parts_->save();
 }
 
@@ -137,12 +137,21 @@ TrajectoryWriter::TrajectoryWriter(const RunFolder& folder, TrajectoryLayout lay
                                    const TrajectoryEnd& end, const SegmentLimits limits) {
   parts_ = std::make_unique<Parts>(folder, std::move(layout), output, limits);
   const Stopwatch stopwatch(parts_->seconds);
-  parts_->take_over(end);
+  parts_->read_up_to(end);
+}
+
+void TrajectoryWriter::begin() {
+  const Stopwatch stopwatch(parts_->seconds);
+  const auto n_segments = static_cast<std::int64_t>(parts_->segments.size());
+  const RunFolder& folder = parts_->folder;
+  find_leftovers(folder, n_segments);  // all folders can be listed
+  make_folder_of_segments(folder);
   // The index first: whoever reads must not be sent to segments that are gone.
+  parts_->begun = true;
   parts_->save();
-  remove_leftovers(folder, parts_->segments.size());
-  std::error_code ignored;
-  if (end.frames == 0) std::filesystem::remove(folder.xdmf(), ignored);
+  remove_leftovers(folder, n_segments);
+  std::error_code ignored;  // the next frames replace it
+  if (end().frames == 0) std::filesystem::remove(folder.xdmf(), ignored);
 }
 
 TrajectoryEnd TrajectoryWriter::end() const {
@@ -157,7 +166,7 @@ TrajectoryEnd TrajectoryWriter::end() const {
 }
 
 TrajectoryWriter::~TrajectoryWriter() {
-  if (parts_->failed) return;
+  if (parts_->failed || !parts_->begun) return;
   try {
     parts_->save();
   } catch (...) {  // finish() would have told

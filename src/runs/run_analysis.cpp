@@ -3,10 +3,10 @@
 #include <skein/analysis/centreline.hpp>
 #include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
+#include <skein/io/run_scene.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_reader.hpp>
 #include <skein/physics/physics.hpp>
-#include <skein/scene/scene_file.hpp>
 
 #include <fmt/format.h>
 
@@ -91,11 +91,11 @@ std::vector<ForceRecord> add_up(const std::vector<std::vector<ForceRecord>>& for
 
 RunAnalysis analyze_run(const RunFolder& folder, const bool with_forces) {
   RunAnalysis analysis;
-  analysis.scene = read_scene(folder.scene(), {}).config;
+  analysis.status = read_run_summary(folder.path()).status;
+  analysis.scene = read_run_scene(folder);
   Physics physics = make_physics(analysis.scene);
   analysis.fibers = physics.fibers;
   analysis.shares_energy = physics.has_force_between_fibers();
-  analysis.status = read_run_summary(folder.path()).status;
   for (const Fiber& fiber : analysis.fibers) analysis.histories.emplace_back(fiber, physics.time_scale());
   ForceProbe probe(physics);
   if (with_forces) analysis.forces.resize(analysis.fibers.size());

@@ -1,6 +1,6 @@
 #include "runs/run_recorder.hpp"
 
-#include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/scene/frame_times.hpp>
 
 #include "runs/observables.hpp"

@@ -83,6 +83,9 @@ ExitCode Simulation::run() {
                                      {"method", integrator_->describe()},
                                      {"mobility", physics_.mobility->describe()},
                                      {"backend", describe_backend()}});
+  recorder_.trajectory().begin();
+  // The first checkpoint stands before the first frame: frames without any are never those of a run that was killed.
+  checkpoints_.save();
   recorder_.begin(state_);
   checkpoints_.rehearse();
   try {

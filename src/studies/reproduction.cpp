@@ -1,5 +1,7 @@
 #include "studies/reproduction.hpp"
 
+#include <skein/io/folder_listing.hpp>
+
 #include "runs/run_to_end.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +42,7 @@ PaperRuns analyze_runs(const Reproduction& request) {
   PaperRuns runs;
   for (const PaperFiber& fiber : list_paper_fibers()) {
     const fs::path path = folder_of(fiber, request);
-    if (!fs::exists(path / "trajectory.h5")) continue;
+    if (!is_there(path / "trajectory.h5")) continue;
     const RunFolder folder = RunFolder::open(path);
     RunAnalysis analysis = analyze_run(folder, /*with_forces=*/true);
     write_analysis(analysis, folder.analysis());

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   try {
     OutputConfig output;
     output.precision = words_of_stored_precision().value_of(arguments[1]);
-    const TrajectoryLayout layout = make_synthetic_layout();
+    const TrajectoryLayout layout = make_synthetic_layout("title = \"two synthetic tubes\"\n");
     const RunFolder folder = RunFolder::create(arguments[0], layout.attributes.at("scene"), /*overwrite=*/true);
     RunLog log(folder.run_log());
     EventLog events(folder.events());

@@ -20,6 +20,7 @@ PROMISES = {
     "write_errors": "disk full, write errors",
     "damaged_checkpoints": "damaged checkpoints",
     "crafted_files": "crafted HDF5 files",
+    "unreadable": "unreadable files, folders",
     "bad_scenes": "bad scenes",
     "faults": "not a number",
     "readers": "read while it writes",
@@ -27,12 +28,12 @@ PROMISES = {
     "descriptors": "descriptors closed",
 }
 COUNTS = {
-    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, crafted_files=40, scenes=60,
+    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, crafted_files=40, harms=8, scenes=60,
                   faults=4, readings=20, planted=12, descriptors=7),
-    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, crafted_files=370,
+    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, crafted_files=370, harms=60,
                   scenes=2000, faults=50, readings=200, planted=120, descriptors=14),
     "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000,
-                     crafted_files=1500, scenes=20000, faults=500, readings=2000, planted=1000, descriptors=70),
+                     crafted_files=1500, harms=1000, scenes=20000, faults=500, readings=2000, planted=1000, descriptors=70),
 }
 
 

@@ -1,17 +1,19 @@
 #pragma once
 
+#include <skein/io/read_file.hpp>
 #include <skein/io/trajectory_writer.hpp>
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 namespace skein {
 
 // Two fibers that differ in everything, one of them with an odd number of nodes on a section; they drift and turn, and
-// stay tubes of their radius. No solver is involved.
-inline TrajectoryLayout make_synthetic_layout() {
+// stay tubes of their radius. No solver is involved. `scene`: the text that scene.toml of the run folder holds.
+inline TrajectoryLayout make_synthetic_layout(const std::string& scene = "scene") {
   FiberConfig first;
   first.sections = 7;
   first.nodes_per_section = 6;
@@ -27,8 +29,7 @@ inline TrajectoryLayout make_synthetic_layout() {
   TrajectoryLayout layout;
   layout.fibers = make_fibers({first, second});
   layout.blobs = make_blobs(layout.fibers);
-  layout.attributes = {
-      {"title", "two synthetic tubes"}, {"scene", "title = \"two synthetic tubes\"\n"}, {"version", "1.2.3"}};
+  layout.attributes = {{"title", "two synthetic tubes"}, {"scene", scene}, {"version", "1.2.3"}};
   layout.parameters = {{"shear_rate", {2.5, "1/time"}},
                        {"bending_rigidity", {std::vector<double>{4.8e-6, 3.1e-5}, "force*length^2"}},
                        {"elasto_viscous_number", {std::vector<double>{535.0, 71.0}, ""}}};
@@ -79,7 +80,7 @@ inline constexpr SegmentLimits never{.bytes = 1 << 30, .seconds = 1e9};
 
 // Frames 0, 1 | 2 | 3, 4 with ten steps between two frames.
 inline void write_three_segments(const RunFolder& folder, const OutputConfig& output) {
-  const TrajectoryLayout layout = make_synthetic_layout();
+  const TrajectoryLayout layout = make_synthetic_layout(read_file(folder.scene()));
   TrajectoryWriter writer(folder, layout, output, never);
   for (int frame = 0; frame < 5; ++frame) {
     for (int step = 10 * frame - 9; step <= 10 * frame; ++step)

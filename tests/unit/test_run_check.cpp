@@ -2,7 +2,11 @@
 
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/checkpoint_folder.hpp>
+#include <skein/io/listed_segments.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_check.hpp>
+#include <skein/io/run_leftovers.hpp>
+#include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_end.hpp>
 #include <skein/scene/scene_file.hpp>
 
@@ -11,6 +15,7 @@
 #include "tests/unit/synthetic_run.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdio>
 #include <fstream>
@@ -24,7 +29,8 @@ namespace fs = std::filesystem;
 SceneConfig make_scene() {
   SceneConfig scene;
   for (const Fiber& fiber : make_synthetic_layout().fibers) scene.fibers.push_back(fiber.config);
-  scene.time.end = 0.25;  // frames of make_synthetic_frame, every 0.05
+  scene.time.end = 0.25;
+  scene.output.frame_interval = 0.05;  // of make_synthetic_frame
   return scene;
 }
 
@@ -51,8 +57,9 @@ Checkpoint make_checkpoint(const RunFolder& folder, const TrajectoryEnd& end, co
 class WholeRun : public testing::Test {
  protected:
   WholeRun() : folder_(RunFolder::create(scratch_.path() / "run", write_scene(make_scene()), false)) {
-    const TrajectoryLayout layout = make_synthetic_layout();
+    const TrajectoryLayout layout = make_synthetic_layout(read_file(folder_.scene()));
     TrajectoryWriter writer(folder_, layout, {}, find_trajectory_start(folder_), never);
+    writer.begin();
     CheckpointFolder checkpoints(folder_);
     double time = 0.0;
     for (int frame = 0; frame <= 5; ++frame) {
@@ -157,7 +164,26 @@ TEST_F(WholeRun, AnyChangedByteOfAnyFileIsFound) {
 
 TEST_F(WholeRun, AnotherSceneIsFound) {
   write_file_atomically(folder_.scene(), read_file(folder_.scene()) + "# changed\n");
-  EXPECT_NE(problem().find("does not follow"), std::string::npos);
+  EXPECT_NE(problem().find("was changed since"), std::string::npos);
+  std::string message;
+  EXPECT_EQ(code_of([&] { read_run_summary(folder_.path()); }, &message), ExitCode::damaged_data);
+  EXPECT_NE(message.find(folder_.scene().string()), std::string::npos) << message;
+  EXPECT_EQ(code_of([&] { find_resume_point(folder_, false); }), ExitCode::damaged_data);
+  // Also where the index cannot tell, and nothing is renamed.
+  fs::remove(folder_.index());
+  EXPECT_NE(problem().find("is gone"), std::string::npos);
+  EXPECT_EQ(code_of([&] { find_resume_point(folder_, false); }, &message), ExitCode::damaged_data);
+  EXPECT_NE(message.find("another scene"), std::string::npos) << message;
+  EXPECT_EQ(CheckpointFolder::list_numbers(folder_), (std::vector<std::int64_t>{1, 2, 3}));
+}
+
+TEST_F(WholeRun, IsCheckedWithoutItsIndex) {
+  fs::remove(folder_.index());
+  const RunCheck check = check_run(folder_.path());
+  ASSERT_EQ(check.problems.size(), 1u);
+  EXPECT_NE(check.problems[0].find("trajectory.h5"), std::string::npos);
+  EXPECT_EQ(check.frames, 6);
+  EXPECT_EQ(check.segments, 3);
 }
 
 TEST_F(WholeRun, ADamagedCheckpointIsNamed) {
@@ -166,10 +192,10 @@ TEST_F(WholeRun, ADamagedCheckpointIsNamed) {
 }
 
 TEST_F(WholeRun, GoesOnFromItsNewestGoodCheckpoint) {
-  EXPECT_EQ(find_resume_point(folder_).path, checkpoint(3));
+  EXPECT_EQ(find_resume_point(folder_, false).path, checkpoint(3));
   flip_bit(checkpoint(3), 200);
   fs::resize_file(checkpoint(2), 50);
-  const ResumePoint point = find_resume_point(folder_);
+  const ResumePoint point = find_resume_point(folder_, false);
   EXPECT_EQ(point.path, checkpoint(1));
   ASSERT_EQ(point.rejected.size(), 2u);
   EXPECT_NE(point.rejected[0].find("000003.checkpoint"), std::string::npos);
@@ -181,31 +207,120 @@ TEST_F(WholeRun, GoesOnFromItsNewestGoodCheckpoint) {
 TEST_F(WholeRun, WithoutAGoodCheckpointIsAnError) {
   for (const int number : {1, 2, 3}) flip_bit(checkpoint(number), 40);
   std::string message;
-  EXPECT_EQ(code_of([&] { find_resume_point(folder_); }, &message), ExitCode::damaged_data);
+  EXPECT_EQ(code_of([&] { find_resume_point(folder_, false); }, &message), ExitCode::damaged_data);
   for (const char* name : {"000001", "000002", "000003"}) EXPECT_NE(message.find(name), std::string::npos);
 }
 
-TEST_F(WholeRun, WithoutAnyCheckpointStartsAgain) {
+// Frames are dropped only on request, whatever became of the checkpoints.
+TEST_F(WholeRun, WithoutAnyCheckpointStartsAgainOnlyOnRequest) {
   fs::remove_all(folder_.checkpoints());
-  EXPECT_FALSE(find_resume_point(folder_).checkpoint);
+  std::string message;
+  EXPECT_EQ(code_of([&] { find_resume_point(folder_, false); }, &message), ExitCode::damaged_data);
+  EXPECT_NE(message.find("--from-start"), std::string::npos) << message;
+  EXPECT_EQ(problem(), "");  // it is done, and its frames are whole
+  EXPECT_NE(check_run(folder_.path()).notes.at(0).find("no checkpoint"), std::string::npos);
+  EXPECT_FALSE(find_resume_point(folder_, true).checkpoint);
+}
+
+TEST_F(WholeRun, WithAGoodCheckpointDoesNotStartAgain) {
+  EXPECT_EQ(code_of([&] { find_resume_point(folder_, true); }), ExitCode::usage);
+}
+
+TEST_F(WholeRun, WithoutFramesStartsByItself) {
+  fs::remove_all(folder_.checkpoints());
+  fs::remove_all(folder_.segments());
+  EXPECT_FALSE(find_resume_point(folder_, false).checkpoint);
+}
+
+TEST_F(WholeRun, WhoseCheckpointsCannotBeListedIsLeftAsItIs) {
+  const fs::path elsewhere = scratch_.path() / "elsewhere";
+  fs::rename(folder_.checkpoints(), elsewhere);
+  const auto check = [&] {
+    for (const bool from_start : {false, true}) {
+      std::string message;
+      EXPECT_EQ(code_of([&] { find_resume_point(folder_, from_start); }, &message), ExitCode::io_error);
+      EXPECT_NE(message.find(folder_.checkpoints().string()), std::string::npos) << message;
+    }
+    const RunCheck found = check_run(folder_.path());
+    ASSERT_EQ(found.problems.size(), 1u);
+    EXPECT_NE(found.problems[0].find(folder_.checkpoints().string()), std::string::npos);
+    EXPECT_EQ(found.unreadable, 1);
+    EXPECT_EQ(found.frames, 6);
+    fs::remove(folder_.checkpoints());
+  };
+  fs::create_symlink("/not/mounted", folder_.checkpoints());
+  check();
+  write_file_atomically(folder_.checkpoints(), "a file");
+  check();
+  ASSERT_EQ(::mkfifo(folder_.checkpoints().c_str(), 0600), 0);
+  check();
+  fs::rename(elsewhere, folder_.checkpoints());
+  EXPECT_EQ(problem(), "");
+}
+
+TEST_F(WholeRun, GoesOnFromAnOlderCheckpointWhereTheNewestIsNoFile) {
+  fs::remove(checkpoint(3));
+  fs::create_directory(checkpoint(3));
+  EXPECT_NE(problem().find("it is a folder"), std::string::npos) << problem();
+  EXPECT_EQ(find_resume_point(folder_, false).path, checkpoint(2));
+  ASSERT_EQ(::mkfifo(checkpoint(3).c_str(), 0600), 0);
+  const ResumePoint point = find_resume_point(folder_, false);
+  EXPECT_EQ(point.path, checkpoint(2));
+  EXPECT_NE(point.rejected.at(0).find("it is a pipe"), std::string::npos) << point.rejected.at(0);
+}
+
+TEST_F(WholeRun, WhoseCheckpointsCannotBeReadIsAnErrorOfReading) {
+  for (const int number : {1, 2, 3}) {
+    fs::remove(checkpoint(number));
+    fs::create_directory(checkpoint(number));
+  }
+  EXPECT_EQ(code_of([&] { find_resume_point(folder_, false); }), ExitCode::io_error);
+  EXPECT_EQ(check_run(folder_.path()).unreadable, 3);
+}
+
+TEST_F(WholeRun, ASegmentOfAnotherPlaceIsNotTakenForTheOneThatIsListed) {
+  EXPECT_NO_THROW(check_listed_segments(folder_));
+  fs::copy_file(segment(1), segment(2), fs::copy_options::overwrite_existing);
+  std::string message;
+  EXPECT_EQ(code_of([&] { check_listed_segments(folder_); }, &message), ExitCode::damaged_data);
+  EXPECT_NE(message.find("segments/000002.h5"), std::string::npos) << message;
+  fs::remove(segment(2));
+  ASSERT_EQ(::mkfifo(segment(2).c_str(), 0600), 0);
+  EXPECT_EQ(code_of([&] { check_listed_segments(folder_); }, &message), ExitCode::io_error);
+  EXPECT_NE(message.find("segments/000002.h5"), std::string::npos) << message;
+}
+
+TEST_F(WholeRun, OnlyFilesOfTheRunAreTakenForItsLeftovers) {
+  for (const fs::path& path : {folder_.path() / "mine.partial", folder_.segments() / "notes.h5"})
+    write_file_atomically(path, "mine");
+  write_file_atomically(segment(7), "behind the end");
+  write_file_atomically(folder_.path() / "trajectory.h5.partial", "half");
+  remove_leftovers(folder_, 3);
+  EXPECT_TRUE(fs::exists(folder_.path() / "mine.partial"));
+  EXPECT_TRUE(fs::exists(folder_.segments() / "notes.h5"));
+  EXPECT_FALSE(fs::exists(segment(7)));
+  EXPECT_FALSE(fs::exists(folder_.path() / "trajectory.h5.partial"));
+  EXPECT_EQ(problem(), "");
 }
 
 TEST_F(WholeRun, ACheckpointWhoseFramesAreGoneCannotServe) {
   fs::remove(segment(2));
-  const ResumePoint point = find_resume_point(folder_);
+  const ResumePoint point = find_resume_point(folder_, false);
   EXPECT_EQ(point.path, checkpoint(2));
   EXPECT_NE(point.rejected.at(0).find("segments/000002.h5"), std::string::npos);
 }
 
 TEST_F(WholeRun, IsCutAtTheCheckpointAndWrittenAgain) {
   const std::string certificate = check_run(folder_.path()).checksum;
-  const TrajectoryLayout layout = make_synthetic_layout();
-  const TrajectoryEnd end = read_trajectory_end(*find_resume_point(folder_).checkpoint);
+  const TrajectoryLayout layout = make_synthetic_layout(read_file(folder_.scene()));
+  const TrajectoryEnd end = read_trajectory_end(*find_resume_point(folder_, false).checkpoint);
   EXPECT_EQ(end.segments, 3);
   const TrajectoryEnd second = read_trajectory_end(read_checkpoint(checkpoint(2)));
   write_file_atomically(folder_.segments() / "000002.h5.partial", "half");
   {
     TrajectoryWriter writer(folder_, layout, {}, second, never);
+    EXPECT_EQ(check_run(folder_.path()).frames, 6) << "nothing is removed before the run begins";
+    writer.begin();
     EXPECT_EQ(writer.end().checksum, second.checksum);
     EXPECT_EQ(names_in(folder_.segments()), (std::set<std::string>{"000000.h5", "000001.h5"}));
     EXPECT_EQ(check_run(folder_.path()).frames, 4);

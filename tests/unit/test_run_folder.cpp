@@ -1,5 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/folder_listing.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_writer.hpp>
@@ -10,11 +12,13 @@
 #include "tests/unit/synthetic_run.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -110,6 +114,109 @@ TEST(RunFolder, KnowsItsPartsByEveryName) {
 
 TEST(RunFolder, HasAName) {
   EXPECT_EQ(code_of([] { RunFolder::create("", "scene", false); }), ExitCode::usage);
+}
+
+TEST(RunFolder, TakesOverWhatARunLeftThatWasKilledBeforeItsScene) {
+  const ScratchFolder scratch;
+  const std::string scene = "title = \"mine\"\n[time]\n";
+  int n = 0;
+  for (const char* half : {"", "ti", "title = \"mi"}) {
+    const fs::path run = scratch.path() / std::to_string(n++);
+    fs::create_directories(run / "segments");
+    write_file_atomically(run / "scene.toml.partial", half);
+    RunFolder::create(run, scene, false);
+    EXPECT_EQ(names_in(run), (std::set<std::string>{"scene.toml", "segments"}));
+    EXPECT_EQ(read_file(run / "scene.toml"), scene);
+  }
+  const fs::path bare = scratch.path() / "bare";
+  fs::create_directories(bare / "segments");
+  RunFolder::create(bare, scene, false);
+}
+
+TEST(RunFolder, TakesNothingElseForSuchRemains) {
+  const ScratchFolder scratch;
+  const std::string scene = "title = \"mine\"\n[time]\n";
+  const auto refuses = [&](const fs::path& path, const char* content) {
+    const fs::path run = scratch.path() / "run";
+    fs::create_directories(run / "segments");
+    if (content == nullptr)
+      fs::create_directories(run / path);
+    else
+      write_file_atomically(run / path, content);
+    EXPECT_EQ(code_of([&] { RunFolder::create(run, scene, false); }), ExitCode::cannot_create) << path;
+    EXPECT_TRUE(fs::exists(run / path)) << path;
+    fs::remove_all(run);
+  };
+  refuses("notes.txt", "mine");
+  refuses("scene.toml", "mine");
+  refuses("segments/000000.h5", "frames");
+  refuses("scene.toml.partial", "somebody's own");
+  refuses("scene.toml.partial", nullptr);
+  refuses("checkpoints", nullptr);
+  // Nor a folder of segments that is elsewhere.
+  const fs::path linked = scratch.path() / "linked";
+  fs::create_directories(linked);
+  fs::create_directories(scratch.path() / "elsewhere");
+  fs::create_directory_symlink(scratch.path() / "elsewhere", linked / "segments");
+  EXPECT_EQ(code_of([&] { RunFolder::create(linked, scene, false); }), ExitCode::cannot_create);
+}
+
+TEST(RunFolder, KeepsTheEarlierRunWhereTheNewOneCannotBegin) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run";
+  write_three_segments(RunFolder::create(run, "scene", false), {});
+  const FileSizeLimit limit(1000);
+  EXPECT_EQ(code_of([&] { RunFolder::create(run, std::string(5000, 'x'), true); }), ExitCode::io_error);
+  EXPECT_EQ(read_run_summary(run).frames, 5);
+  // Nor is anything removed that was not seen whole.
+  fs::create_symlink("/not/mounted", run / "checkpoints");
+  EXPECT_EQ(code_of([&] { RunFolder::create(run, "new", true); }), ExitCode::io_error);
+  EXPECT_EQ(read_run_summary(run).frames, 5);
+  // Whoever locks the folder does so before.
+  EXPECT_EQ(code_of([&] {
+              RunFolder::create(run, "new", true, [](const RunFolder&) { throw Error(ExitCode::usage, "in use"); });
+            }),
+            ExitCode::usage);
+  EXPECT_EQ(read_run_summary(run).frames, 5);
+}
+
+TEST(ReadFile, ReadsFilesAndNothingElse) {
+  const ScratchFolder scratch;
+  std::string message;
+  EXPECT_EQ(code_of([&] { read_file(scratch.path() / "nowhere"); }), ExitCode::missing_input);
+  EXPECT_EQ(code_of([&] { read_file(scratch.path()); }, &message), ExitCode::io_error);
+  EXPECT_NE(message.find(scratch.path().string() + "': it is a folder"), std::string::npos) << message;
+  const fs::path pipe = scratch.path() / "pipe", link = scratch.path() / "link", file = scratch.path() / "file";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(code_of([&] { read_file(pipe); }, &message), ExitCode::io_error);  // without waiting for a writer
+  EXPECT_NE(message.find("it is a pipe"), std::string::npos) << message;
+  EXPECT_EQ(code_of([&] { check_is_file(pipe); }), ExitCode::io_error);
+  fs::create_symlink(link, link);
+  EXPECT_EQ(code_of([&] { read_file(link); }), ExitCode::io_error);
+  EXPECT_EQ(code_of([&] { read_file("/dev/zero"); }), ExitCode::io_error);
+  const std::string content(200'001, 'x');
+  write_file_atomically(file, content);
+  EXPECT_EQ(read_file(file), content);
+  fs::resize_file(file, 0);
+  EXPECT_EQ(read_file(file), "");
+  EXPECT_FALSE(read_file("/proc/self/stat").empty());
+  // The system says EIO where a process's memory is read that is not there.
+  EXPECT_EQ(code_of([&] { read_file("/proc/self/mem"); }, &message), ExitCode::io_error);
+  EXPECT_NE(message.find("Input/output error"), std::string::npos) << message;
+}
+
+TEST(FolderListing, TellsNothingThereFromNotSeen) {
+  const ScratchFolder scratch;
+  const fs::path link = scratch.path() / "link", file = scratch.path() / "file";
+  EXPECT_TRUE(list_names(scratch.path() / "nowhere").empty());
+  EXPECT_FALSE(is_there(scratch.path() / "nowhere"));
+  fs::create_symlink("/not/mounted", link);
+  EXPECT_TRUE(is_there(link));
+  EXPECT_EQ(code_of([&] { list_names(link); }), ExitCode::io_error);
+  write_file_atomically(file, "");
+  EXPECT_EQ(code_of([&] { list_names(file); }), ExitCode::io_error);
+  EXPECT_EQ(list_names(scratch.path()), (std::vector<std::string>{"file", "link"}));
+  EXPECT_EQ(code_of([&] { is_there(scratch.path() / std::string(300, 'x')); }), ExitCode::io_error);
 }
 
 TEST(RunSummary, CountsWhatIsThere) {

@@ -1,6 +1,6 @@
 #include <skein/core/error.hpp>
-#include <skein/io/atomic_file.hpp>
 #include <skein/io/event_log.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_log.hpp>
 
 #include "tests/unit/scratch_folder.hpp"

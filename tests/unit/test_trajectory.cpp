@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_writer.hpp>
@@ -220,9 +221,8 @@ TEST(Trajectory, KeepsFramesThatCouldNotBeWrittenAndWritesThemLater) {
 
 TEST(Trajectory, NamesTheIndexWhenItIsTheIndexThatDoesNotFit) {
   const ScratchFolder scratch;
-  const RunFolder folder = RunFolder::create(scratch.path() / "run", "scene", false);
-  TrajectoryLayout layout = make_synthetic_layout();
-  layout.attributes["scene"] = std::string(300'000, 'x');
+  const RunFolder folder = RunFolder::create(scratch.path() / "run", std::string(300'000, 'x'), false);
+  const TrajectoryLayout layout = make_synthetic_layout(std::string(300'000, 'x'));
   TrajectoryWriter writer(folder, layout, {}, never);
   writer.append(make_synthetic_frame(layout, 0));
   std::string message;

@@ -2,6 +2,7 @@
 #include <skein/core/error.hpp>
 #include <skein/io/array_file.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/line_file.hpp>
 #include <skein/io/run_lock.hpp>
 

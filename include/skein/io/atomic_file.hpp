@@ -40,8 +40,4 @@ class AtomicFile {
 /// The whole content at once. @throws Error(io_error)
 void write_file_atomically(const std::filesystem::path& path, std::string_view content);
 
-/// What stands in a file. @throws Error(missing_input) if it cannot be opened, Error(damaged_data) if it cannot be
-/// read.
-std::string read_file(const std::filesystem::path& path);
-
 }  // namespace skein

@@ -27,7 +27,7 @@ class CheckpointFolder {
   std::int64_t last_number() const { return last_number_; }
   std::filesystem::path path_of(std::int64_t number) const;
 
-  /// In growing order.
+  /// In growing order. @throws Error(io_error) if the folder cannot be listed; none where there is no folder
   static std::vector<std::int64_t> list_numbers(const RunFolder& folder);
   static std::filesystem::path path_of(const RunFolder& folder, std::int64_t number);
 
@@ -38,17 +38,23 @@ class CheckpointFolder {
 
 /// Where a run can go on.
 struct ResumePoint {
-  std::optional<Checkpoint> checkpoint;  ///< none where no checkpoint was ever written: the run starts again
+  std::optional<Checkpoint> checkpoint;  ///< none: the run starts at t = 0
   std::filesystem::path path;
-  std::vector<std::string> rejected;  ///< what is wrong with each newer one, newest first; its file was renamed
+  std::vector<std::string> rejected;  ///< what is wrong with each newer one, newest first, and what became of its file
 };
 
-/// The newest checkpoint that is whole, belongs to the folder's scene, and whose frames are all there. Newer ones that
-/// are not are renamed to `<name>.damaged`.
-/// @throws Error(damaged_data), naming them all, if there are checkpoints and none is good
-ResumePoint find_resume_point(const RunFolder& folder);
+/// The newest checkpoint that can be read, is whole, belongs to the folder's scene, and whose frames are all there.
+/// Newer ones that are not are renamed to `<name>.damaged`.
+///
+/// Without a good one a run starts at t = 0 only if it has no frames, or if they may be dropped.
+/// @param from_start  drop the frames of a run that no checkpoint goes on from
+/// @throws Error(damaged_data) if there is no good one but frames or other checkpoints, naming them all, or if the
+/// scene
+///         was changed; Error(io_error) instead where one could not be read, or a folder not be listed: nothing is lost
+///         then; Error(usage) if there is a good one and from_start
+ResumePoint find_resume_point(const RunFolder& folder, bool from_start);
 
-/// Why a checkpoint cannot serve a run folder; empty if it can.
-std::string find_checkpoint_fault(const RunFolder& folder, const Checkpoint& checkpoint);
+/// @throws Error(damaged_data), Error(io_error) saying why a checkpoint cannot serve a run folder
+void check_checkpoint(const RunFolder& folder, const Checkpoint& checkpoint);
 
 }  // namespace skein

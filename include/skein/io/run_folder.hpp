@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -9,15 +10,20 @@ namespace skein {
 /// Where each file of a run lies. A run writes nothing outside its folder.
 class RunFolder {
  public:
-  /// Makes the folder with its parents, and puts the scene into it.
+  using Use = std::function<void(const RunFolder&)>;
+
+  /// Makes the folder with its parents, and puts the scene into it. What a run has left there that was killed before
+  /// its scene was there is taken over. Nothing is removed before the new scene is written.
   ///
   /// @param scene      text of the resolved scene
   /// @param overwrite  clear what an earlier run left there, its tables and pictures included (and nothing else),
   ///                   instead of refusing
+  /// @param use        called when the folder is there and before anything in it is written or removed: to lock it
   /// @throws Error(cannot_create) if the folder cannot be made, if it holds a run and overwrite is false, or if it
   /// holds
-  ///         anything but a run; Error(io_error) if the disk is full or fails.
-  static RunFolder create(const std::filesystem::path& path, const std::string& scene, bool overwrite);
+  ///         anything but a run; Error(io_error) if the disk is full or fails; what `use` throws.
+  static RunFolder create(const std::filesystem::path& path, const std::string& scene, bool overwrite,
+                          const Use& use = {});
 
   /// The folder of an earlier run. @throws Error(missing_input) if there is none.
   static RunFolder open(const std::filesystem::path& path);

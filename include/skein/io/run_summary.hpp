@@ -15,11 +15,13 @@ struct RunSummary {
   std::int64_t steps = 0;  ///< recorded, accepted ones
   std::int64_t segments = 0;
   std::vector<std::int64_t> segment_frames;  ///< [segments], frames of each
+  std::string chain;                         ///< checksums of all segments, 16 digits each; empty in older runs
   double last_time = 0.0;                    ///< of the last frame; NaN where there is none
 };
 
-/// @throws Error(missing_input) if there is no run folder, Error(damaged_data) naming the file that is unreadable or
-/// gone
+/// @throws Error(missing_input) if there is no run folder, Error(damaged_data) naming the file that is damaged, gone
+/// or,
+///         as a scene that was edited, no longer of this run, Error(io_error) naming the one that cannot be read
 RunSummary read_run_summary(const std::filesystem::path& folder);
 
 }  // namespace skein

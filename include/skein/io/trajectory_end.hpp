@@ -23,8 +23,8 @@ TrajectoryEnd find_trajectory_start(const RunFolder& folder);
 void write_trajectory_end(Checkpoint& checkpoint, const TrajectoryEnd& end);
 TrajectoryEnd read_trajectory_end(const Checkpoint& checkpoint);  ///< @throws Error(damaged_data)
 
-/// What is missing of, or wrong with, the segments up to `end`, by their labels; empty if nothing is.
-/// @param check_seals  read all bytes, too
-std::string find_missing_segments(const RunFolder& folder, const TrajectoryEnd& end, bool check_seals);
+/// Looks at the segments up to `end` by their labels. @param check_seals  read all bytes, too
+/// @throws Error(damaged_data), Error(io_error) saying what is missing, wrong or cannot be read
+void check_trajectory(const RunFolder& folder, const TrajectoryEnd& end, bool check_seals);
 
 }  // namespace skein

@@ -32,9 +32,13 @@ class TrajectoryWriter {
   TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
                    SegmentLimits limits = {});
 
-  /// Goes on with a trajectory after `end`, forgetting what lies behind it. @throws also Error(damaged_data)
+  /// Goes on with a trajectory after `end`. Nothing in the folder is changed before begin(), so that whatever else a
+  /// run needs can fail in between. @throws Error(damaged_data), Error(io_error) if what lies before `end` is not whole
   TrajectoryWriter(const RunFolder& folder, TrajectoryLayout layout, const OutputConfig& output,
                    const TrajectoryEnd& end, SegmentLimits limits = {});
+
+  /// Makes the folder's trajectory end where this one goes on: writes the index, and removes what lies behind.
+  void begin();
 
   /// Tries to save what is still buffered, but cannot report a failure: call finish() first.
   ~TrajectoryWriter();

@@ -1,4 +1,5 @@
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/read_file.hpp>
 
 #include <cstdio>
 
