@@ -2,8 +2,10 @@
 
 #include "studies/acceptance.hpp"
 #include "studies/lagrone2019.hpp"
+#include "studies/paper_scenes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -68,6 +70,30 @@ class PaperRun {
     const std::size_t i = frame(time);
     return 0.5 * (history_->hooks(FiberEnd::first)[i]->arclength + history_->hooks(FiberEnd::last)[i]->arclength) /
            history_->shapes()[i].length;
+  }
+  double radii_out_of_plane(const double time) const {
+    return at(time, [](const Shape& shape) { return shape.out_of_plane / paper_radius; });
+  }
+  /// The first moment at which the fiber is a radius out of its plane; infinite if it stays in it to `end`.
+  double time_out_of_plane(const double end) const {
+    if (!has(end)) return none;
+    const auto& shapes = history_->shapes();
+    const auto found = std::find_if(shapes.begin(), shapes.end(),
+                                    [](const Shape& shape) { return shape.out_of_plane >= paper_radius; });
+    return found == shapes.end() ? std::numeric_limits<double>::infinity()
+                                 : analysis_->time[static_cast<std::size_t>(found - shapes.begin())];
+  }
+  /// Of the frames up to the first half period, those in which the fiber is straight to a percent and within ten
+  /// degrees of x.
+  double share_at_rest() const {
+    const double end = half_period();
+    if (!has(end)) return none;
+    std::size_t n_at_rest = 0;
+    for (std::size_t i = 0; i <= frame(end); ++i) {
+      const Shape& shape = history_->shapes()[i];
+      n_at_rest += shape.distance > 0.99 * shape.length && std::abs(std::sin(shape.angle)) < std::sin(10.0 / degrees);
+    }
+    return static_cast<double>(n_at_rest) / static_cast<double>(frame(end) + 1);
   }
   const FiberHistory* history() const { return history_; }
 

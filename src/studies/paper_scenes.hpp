@@ -6,13 +6,15 @@ namespace skein {
 
 /// Nodes on a section of the paper's fibers.
 constexpr int paper_nodes_per_section = 18;
+/// Of all the paper's fibers, length
+constexpr double paper_radius = 0.005;
 
 /// A fiber of LaGrone, Cortez, Yan, Fauci 2019 in their shear flow, in their units: straight along x at t = 0.
 /// @param sections  N_f; the length is N_f 0.00173648
 SceneConfig make_paper_scene(int sections, double end);
 
-/// The same fibers with fewer nodes on a section: length, radius, blob and bending rigidity kept, sections as far apart
-/// as neighbours on a section. @param nodes_per_section  at least 3
+/// The same fibers with fewer nodes on a section: length, radius and bending rigidity kept, and by a larger blob what
+/// the tube is to the fluid; sections as far apart as neighbours on a section. @param nodes_per_section  at least 3
 SceneConfig coarsen(SceneConfig scene, int nodes_per_section);
 
 }  // namespace skein

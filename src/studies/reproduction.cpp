@@ -22,15 +22,14 @@ bool is_needed(const PaperFiber& fiber, const std::vector<Figure>& figures) {
 }
 
 fs::path folder_of(const PaperFiber& fiber, const Reproduction& request) {
-  const std::string suffix =
-      request.nodes_per_section == paper_nodes_per_section ? "" : fmt::format("_{}", request.nodes_per_section);
+  const std::string suffix = request.nodes_per_section == 0 ? "" : fmt::format("_{}", request.nodes_per_section);
   return request.folder / (fiber.name + suffix);
 }
 
 ExitCode run_needed(const Reproduction& request, RunListener& listener) {
   for (const PaperFiber& fiber : list_paper_fibers()) {
     if (request.only_compare || !is_needed(fiber, request.figures)) continue;
-    const SceneConfig scene = coarsen(make_paper_scene(fiber.sections, fiber.end), request.nodes_per_section);
+    const SceneConfig scene = make_run_scene(fiber, request.nodes_per_section);
     if (run_to_end(scene, folder_of(fiber, request), request.max_walltime, listener) == ExitCode::stopped)
       return ExitCode::stopped;
   }

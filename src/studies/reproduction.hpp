@@ -4,7 +4,6 @@
 
 #include "runs/run_listener.hpp"
 #include "studies/lagrone2019.hpp"
-#include "studies/paper_scenes.hpp"
 
 #include <filesystem>
 #include <limits>
@@ -19,7 +18,7 @@ const std::vector<Figure>& list_quick_figures();
 struct Reproduction {
   std::filesystem::path folder = "lagrone2019";  ///< of runs and tables
   std::vector<Figure> figures = list_quick_figures();
-  int nodes_per_section = paper_nodes_per_section;                ///< fewer: coarsen()
+  int nodes_per_section = 0;                                      ///< 0: each fiber's own
   double max_walltime = std::numeric_limits<double>::infinity();  ///< seconds since the program began
   bool only_compare = false;                                      ///< what is there; nothing is run or timed
 };
