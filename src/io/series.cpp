@@ -152,7 +152,7 @@ Series make_step_series(const TrajectoryLayout& layout) {
   const hsize_t n_fibers = layout.fibers.size();
   return {"step record",
           {{"/observables/energy", Number::float64, {n_fibers}, "force*length"},
-           {"/observables/length", Number::float64, {n_fibers}, "length"},
+           {"/observables/centreline_length", Number::float64, {n_fibers}, "length"},
            {"/observables/curvature_max", Number::float64, {n_fibers}, "1/length"},
            {"/observables/symmetry_defect", Number::float64, {n_fibers}, ""},
            {"/observables/out_of_plane", Number::float64, {n_fibers}, "length"},

@@ -17,7 +17,7 @@ QUAD = 9  # VTK's number for a quadrilateral
 NO_DIMENSION = {"/observables/error/value", "/observables/evaluations/value", "/observables/symmetry_defect/value",
                 "/observables/velocity_error/value", "/observables/fmm_order/value", "/observables/fmm_misses/value",
                 "/parameters/elasto_viscous_number"}
-PER_FIBER = ("energy", "length", "curvature_max", "symmetry_defect", "out_of_plane", "end_to_end")
+PER_FIBER = ("energy", "centreline_length", "curvature_max", "symmetry_defect", "out_of_plane", "end_to_end")
 PER_STEP = ("smallest_gap", "dt", "error", "estimated_error", "spectral_radius", "evaluations", "velocity_error", "fmm_order", "fmm_misses")
 
 

@@ -38,7 +38,7 @@ struct StepRecord {
   std::vector<double> length;           ///< [n_fibers], of the centreline
   std::vector<double> curvature_max;    ///< [n_fibers], 1 / length
   std::vector<double> symmetry_defect;  ///< [n_fibers], departure from odd symmetry over length
-  std::vector<double> out_of_plane;     ///< [n_fibers], largest distance from the plane z = centroid's, length
+  std::vector<double> out_of_plane;     ///< [n_fibers], largest distance from the fiber's own plane, length
   std::vector<Vec3> end_to_end;         ///< [n_fibers], last section centroid - first, length
 };
 
