@@ -17,6 +17,21 @@ double smallest(const std::vector<double>& values) { return *std::min_element(va
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
+template <class Value>
+Value largest(const std::vector<Value>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+std::string describe_contact(const RunAnalysis& analysis) {
+  const int nodes = largest(analysis.nodes_inside), crossings = analysis.crossings.back();
+  std::string text = fmt::format("smallest gap {:.4g}; ", smallest(analysis.smallest_gap));
+  text += nodes == 0
+              ? "no node inside of another surface; "
+              : fmt::format("up to {} nodes inside of another surface, {:.4g} deep; ", nodes, largest(analysis.depth));
+  return text + (crossings == 0 ? "no centreline passed through another"
+                                : fmt::format("centrelines passed through each other {} times", crossings));
+}
+
 std::string describe_passages(const FiberSummary& summary) {
   std::string upright, aligned;
   for (const Passage& passage : summary.passages)
@@ -132,8 +147,8 @@ void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_
 }  // namespace
 
 std::string describe_analysis(const RunAnalysis& analysis) {
-  std::string text = fmt::format("{} frames to t = {:.6g} ({}); smallest gap {:.4g}\n", analysis.time.size(),
-                                 analysis.time.back(), analysis.status, smallest(analysis.smallest_gap));
+  std::string text = fmt::format("{} frames to t = {:.6g} ({}); {}\n", analysis.time.size(), analysis.time.back(),
+                                 analysis.status, describe_contact(analysis));
   for (std::size_t f = 0; f < analysis.fibers.size(); ++f) text += describe_fiber(analysis, f);
   return text;
 }
@@ -143,6 +158,8 @@ std::string describe_analysis_as_json(const RunAnalysis& analysis) {
   JsonWriter json(n_open_levels);
   json.begin_object().member("frames", analysis.time.size()).member("last_time", analysis.time.back());
   json.member("status", analysis.status).member("smallest_gap", smallest(analysis.smallest_gap));
+  json.member("nodes_inside", largest(analysis.nodes_inside)).member("depth", largest(analysis.depth));
+  json.member("crossings", analysis.crossings.back());
   json.key("fibers").begin_array();
   for (std::size_t f = 0; f < analysis.fibers.size(); ++f) write_fiber(json, analysis, f);
   return json.end_array().end_object().take() + "\n";

@@ -79,6 +79,9 @@ std::vector<NamedArray> make_columns(const RunAnalysis& analysis, const std::siz
   });
   columns.add("deflection", "length", [&](const std::size_t i) { return shapes[i].deflection; });
   columns.add("smallest_gap", "length", [&](const std::size_t i) { return analysis.smallest_gap[i]; });
+  columns.add("nodes_inside", "", [&](const std::size_t i) { return static_cast<double>(analysis.nodes_inside[i]); });
+  columns.add("depth", "length", [&](const std::size_t i) { return analysis.depth[i]; });
+  columns.add("crossings", "", [&](const std::size_t i) { return static_cast<double>(analysis.crossings[i]); });
   add_hook(columns, "first_hook_radius", "first_hook_place", history.hooks(FiberEnd::first));
   add_hook(columns, "last_hook_radius", "last_hook_place", history.hooks(FiberEnd::last));
   if (!analysis.forces.empty()) add_forces(columns, analysis.forces[fiber]);

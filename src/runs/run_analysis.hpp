@@ -24,9 +24,12 @@ struct RunAnalysis {
   SceneConfig scene;
   std::string status;
   std::vector<Fiber> fibers;
-  bool shares_energy = false;                    ///< forces between fibers pass it from one to the other
-  std::vector<double> time;                      ///< [n_frames]
-  std::vector<double> smallest_gap;              ///< [n_frames], length
+  bool shares_energy = false;        ///< forces between fibers pass it from one to the other
+  std::vector<double> time;          ///< [n_frames]
+  std::vector<double> smallest_gap;  ///< [n_frames], length
+  std::vector<int> nodes_inside;     ///< [n_frames], of another surface
+  std::vector<double> depth;         ///< [n_frames], of the deepest of them, length
+  std::vector<int> crossings;        ///< [n_frames], of centrelines since the first frame, as seen from frame to frame
   std::vector<FiberHistory> histories;           ///< [n_fibers]
   std::vector<std::vector<ForceRecord>> forces;  ///< [n_fibers][n_frames]; empty if they were not asked for
 };

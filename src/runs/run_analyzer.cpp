@@ -1,6 +1,7 @@
 #include "runs/run_analyzer.hpp"
 
 #include <skein/analysis/centreline.hpp>
+#include <skein/analysis/crossing.hpp>
 
 #include "runs/force_probe.hpp"
 
@@ -26,8 +27,15 @@ void RunAnalyzer::begin_histories(const Frame& frame) {
 void RunAnalyzer::add(const Frame& frame) {
   if (analysis_.histories.empty()) begin_histories(frame);
   analysis_.time.push_back(frame.time);
-  analysis_.smallest_gap.push_back(
-      physics_.sections.compute_smallest_gap(to_device("skein::RunAnalyzer::position", frame.position)));
+  const auto position = to_device("skein::RunAnalyzer::position", frame.position);
+  analysis_.smallest_gap.push_back(physics_.sections.compute_smallest_gap(position));
+  const Penetration penetration = physics_.sections.compute_penetration(position);
+  analysis_.nodes_inside.push_back(penetration.nodes);
+  analysis_.depth.push_back(penetration.depth);
+  const int n_before = analysis_.crossings.empty() ? 0 : analysis_.crossings.back();
+  const int n_new = before_.empty() ? 0 : count_crossings(analysis_.fibers, before_, frame.centreline);
+  analysis_.crossings.push_back(n_before + n_new);
+  before_ = frame.centreline;
   for (std::size_t f = 0; f < analysis_.fibers.size(); ++f)
     analysis_.histories[f].add(frame.time, centreline_of(analysis_.fibers[f], frame.centreline));
   if (analysis_.forces.empty()) return;

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <utility>
+#include <vector>
 
 namespace skein {
 
@@ -30,6 +31,7 @@ class RunAnalyzer {
   const Physics& physics_;
   GradientAt gradient_;
   RunAnalysis analysis_;
+  std::vector<Vec3> before_;  ///< centrelines of the frame before
 };
 
 }  // namespace skein

@@ -51,6 +51,7 @@ def main():
     check([c["regime"] for c in fiber["changes"]] == ["tumble", "S", "tumble"], f"changes {fiber['changes']}")
     check(fiber["wave"] == "standing", f"its waves are {fiber['wave']}")
     check(fiber["hook_radius"] is None, "an S-turn has no hooks")
+    check(summary["nodes_inside"] == summary["crossings"] == 0 and summary["depth"] == 0.0, f"contact in {summary}")
     check(fiber["energy_defect"] < 2e-3, f"the power balance closes to {fiber['energy_defect']} only")
 
     with h5py.File(folder / "trajectory.h5") as run:
@@ -102,6 +103,7 @@ def main():
     elsewhere = folder / "elsewhere"
     shapes = skein(program, "analyze", folder, "--no-forces", "-o", elsewhere)
     check("regime S" in shapes and "energy" not in shapes, shapes)
+    check("no node inside of another surface; no centreline passed through another" in shapes, shapes)
     check("energy" not in read_table(elsewhere / "diagnostics.csv"), "forces were not asked for")
     skein(program, "analyze", folder / "nothing", code=66)
     print(f"check_analyze: {len(times)} frames, power balance {fiber['energy_defect']:.1e}")
