@@ -7,15 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 namespace skein {
 namespace {
 
 double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 template <class Value>
 Value largest(const std::vector<Value>& values) {

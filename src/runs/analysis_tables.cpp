@@ -9,12 +9,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 
 namespace skein {
 namespace {
 
-constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns of one fiber, a value for each frame.

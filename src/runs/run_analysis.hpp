@@ -6,10 +6,14 @@
 #include <skein/scene/scene_config.hpp>
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace skein {
+
+/// Of a radian
+inline constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// What the forces of one fiber do at one moment.
 struct ForceRecord {
