@@ -2,7 +2,6 @@
 // for the program; here are the kinds.
 
 #include <skein/io/atomic_file.hpp>
-#include <skein/io/read_file.hpp>
 #include <skein/io/checkpoint.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_check.hpp>

@@ -2,6 +2,7 @@
 
 #include <skein/io/point_file.hpp>
 
+#include "tests/support/nan_trap.hpp"
 #include "tests/unit/error_code.hpp"
 
 #include <gtest/gtest.h>
@@ -21,6 +22,7 @@ TEST(PointFile, TakesBlanksCommasSemicolonsCommentsAndAHeading) {
 }
 
 TEST(PointFile, NamesLineAndColumnOfWhatIsWrong) {
+  const test::MeantNan coordinates_that_are_none;
   const struct {
     const char *text, *where, *what;
   } cases[] = {

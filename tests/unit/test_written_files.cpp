@@ -2,8 +2,8 @@
 #include <skein/core/error.hpp>
 #include <skein/io/array_file.hpp>
 #include <skein/io/atomic_file.hpp>
-#include <skein/io/read_file.hpp>
 #include <skein/io/line_file.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_lock.hpp>
 
 #include "tests/unit/error_code.hpp"
