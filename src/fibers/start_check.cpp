@@ -29,7 +29,8 @@ std::string find_fault(const Fiber& fiber, const std::uint64_t seed) {
 }
 
 /// The largest value of a key up to the one it has with which a fiber can start, rounded down to three digits.
-double find_largest(Fiber fiber, double FiberConfig::*const key, const std::uint64_t seed) {
+double find_largest(const Fiber& asked, double FiberConfig::*const key, const std::uint64_t seed) {
+  Fiber fiber = asked;
   double low = 0.0, high = fiber.config.*key;
   constexpr int n_halvings = 30;
   for (int i = 0; i < n_halvings; ++i) {

@@ -81,7 +81,7 @@ std::string Hdf5Reader::text_attribute(const std::string& object, const std::str
   if (H5Tis_variable_str(type.id()) > 0) {
     char* text = nullptr;
     if (H5Aread(attribute.id(), type.id(), &text) < 0) fail(whole_name);
-    const std::string result(text == nullptr ? "" : text);
+    std::string result(text == nullptr ? "" : text);
     H5free_memory(text);
     return result;
   }

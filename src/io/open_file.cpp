@@ -4,6 +4,8 @@
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/read_file.hpp>
 
+#include "file_kind.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -17,16 +19,6 @@ namespace {
 
 constexpr int always = O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
 constexpr mode_t permissions = 0666;  // less the user's mask
-
-// Empty for a regular file, and for what is not known.
-const char* name_of_kind(const mode_t mode) {
-  if (S_ISLNK(mode)) return "a symbolic link";
-  if (S_ISDIR(mode)) return "a folder";
-  if (S_ISFIFO(mode)) return "a pipe";
-  if (S_ISSOCK(mode)) return "a socket";
-  if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
-  return "";
-}
 
 [[noreturn]] void fail(const std::filesystem::path& path, const int error_number) {
   struct stat there {};

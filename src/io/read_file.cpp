@@ -1,6 +1,8 @@
 #include <skein/core/error.hpp>
 #include <skein/io/read_file.hpp>
 
+#include "file_kind.hpp"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -26,8 +28,7 @@ namespace {
 
 void check_kind(const std::filesystem::path& path, const mode_t mode) {
   if (S_ISREG(mode)) return;
-  const char* kind = S_ISDIR(mode) ? "a folder" : S_ISFIFO(mode) ? "a pipe" : S_ISSOCK(mode) ? "a socket" : "a device";
-  fail_to_read(path, fmt::format("it is {}, where a file should be", kind));
+  fail_to_read(path, fmt::format("it is {}, where a file should be", name_of_kind(mode)));
 }
 
 class ReadingDescriptor {

@@ -12,7 +12,7 @@ namespace skein {
 namespace {
 
 std::string read_checksum(const Hdf5Reader& file, const std::string& name) {
-  const std::string text = file.text_attribute("/", name);
+  std::string text = file.text_attribute("/", name);
   if (text.size() != 16 || text.find_first_not_of("0123456789abcdef") != std::string::npos)
     file.reject("/@" + name, "it is not 16 hexadecimal digits");
   return text;

@@ -18,7 +18,7 @@ constexpr const char* last_time_name = "/parameters/segments/last_time";
 constexpr std::int64_t largest_count = std::int64_t{1} << 40;
 
 std::vector<std::int64_t> read_counts(const Hdf5Reader& index, const std::string& dataset, const hsize_t n_segments) {
-  const auto counts = index.read_integers(dataset, {n_segments});
+  auto counts = index.read_integers(dataset, {n_segments});
   for (const std::int64_t count : counts)
     if (count < 0 || count > largest_count) index.reject(dataset, fmt::format("a segment cannot have {}", count));
   return counts;

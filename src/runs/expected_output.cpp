@@ -12,10 +12,10 @@
 namespace skein {
 namespace {
 
-/// Also those that newer ones replace; the last is that of the end.
+/// Also those that newer ones replace; the first is that of the start, the last that of the end.
 double count_checkpoints(const SceneConfig& scene, const double seconds) {
   const CheckpointConfig& config = scene.checkpoint;
-  double n = 1.0;
+  double n = 2.0;
   if (config.wall_interval > 0.0) n += std::floor(seconds / config.wall_interval);
   if (config.simulated_interval > 0.0) n += std::floor(scene.time.end / config.simulated_interval);
   return n;
@@ -32,8 +32,9 @@ std::string describe_expected_output(const SceneConfig& scene, const std::vector
   TrajectoryCounts counts{.frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval),
                           .records = expectation.steps};
   const DiskUse content = expect_trajectory_size(fibers, scene.output, scene_bytes, counts);
-  counts.segments =
-      n_checkpoints + (content.frames + content.records) / static_cast<double>(limits.bytes) + seconds / limits.seconds;
+  // With a checkpoint ends a segment, but for that of the start, before which there is nothing.
+  counts.segments = n_checkpoints - 1.0 + (content.frames + content.records) / static_cast<double>(limits.bytes) +
+                    seconds / limits.seconds;
   const DiskUse use = expect_trajectory_size(fibers, scene.output, scene_bytes, counts);
   const double checkpoints =
       std::min(n_checkpoints, static_cast<double>(scene.checkpoint.keep)) * expectation.checkpoint_bytes;

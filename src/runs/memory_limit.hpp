@@ -4,7 +4,7 @@
 
 namespace skein {
 
-/// Bytes that a run of this scene takes on the host, roughly; from its keys alone, before anything is made of them.
+/// Bytes that a run of this scene takes on the host at least; from its keys alone, before anything is made of them.
 double estimate_memory(const SceneConfig& scene);
 
 /// Bytes that this process can have at most: the machine's memory, the limits of its control groups (containers, batch

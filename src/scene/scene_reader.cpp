@@ -182,7 +182,7 @@ bool SceneReader::check_kind(const SceneValue& value, const bool fits, const Key
 }
 
 bool SceneReader::check_number(const SceneValue& value, const double number, const Key& key) {
-  const bool may_be_infinite = number > 0.0 && std::isinf(key.range.high);
+  const bool may_be_infinite = !std::isnan(number) && number > 0.0 && std::isinf(key.range.high);
   if (!std::isfinite(number) && !may_be_infinite) {
     reject(value, key, fmt::format("must be a finite number, not {}", number));
   } else if (number < key.range.low || number > key.range.high) {

@@ -25,11 +25,12 @@ frame_interval = 0.1
 """
 
 
-def skein(*arguments, cwd=None, environment=None, timeout=60, **options):
-    """Runs the program and returns how it ended; `environment` adds to this process's, and None takes away."""
+def skein(*arguments, before=(), cwd=None, environment=None, timeout=60, **options):
+    """Runs the program, behind the words of `before`, and returns how it ended; `environment` adds to this process's, and
+    None takes away."""
     variables = {**os.environ, "OMP_NUM_THREADS": "1", **(environment or {})}
     return subprocess.run(
-        [PROGRAM, *map(str, arguments)],
+        [*map(str, before), PROGRAM, *map(str, arguments)],
         cwd=cwd,
         env={name: value for name, value in variables.items() if value is not None},
         **{"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True,

@@ -1,19 +1,17 @@
 """Run folders in which something is missing, changed, cannot be read, or is not what it should be.
 
-Called as test_harmed_runs.py PROGRAM. Whatever is harmed: no verb hangs or calls it a bug of its own, nothing is lost,
-and a run that can go on does, to the same end."""
+Called as test_harmed_runs.py PROGRAM SOURCES. Whatever is harmed: no verb hangs or calls it a bug of its own, nothing is
+lost, and a run that can go on does, to the same end."""
 
 import os
 import pathlib
 import shutil
-import subprocess
-import sys
 import tempfile
 import unittest
 
-PROGRAM = None  # set from the arguments at the end
+import cli_case
+from cli_case import CANNOT_CREATE, DAMAGED, DONE, IO_ERROR, USAGE
 
-DONE, USAGE, DAMAGED, MISSING, CANNOT_CREATE, IO_ERROR, STOPPED = 0, 64, 65, 66, 73, 74, 75
 KILLED = -9
 
 SCENE = """[fiber]
@@ -33,15 +31,7 @@ simulated_interval = 0.1
 
 
 def skein(*arguments, before=(), **environment):
-    return subprocess.run(
-        [*before, PROGRAM, *map(str, arguments)],
-        env={**os.environ, "OMP_NUM_THREADS": "1", "ASAN_OPTIONS": "detect_leaks=0", **environment},
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        errors="replace",
-        timeout=60,
-    )
+    return cli_case.skein(*arguments, before=before, environment={"ASAN_OPTIONS": "detect_leaks=0", **environment})
 
 
 def content(folder):
@@ -234,7 +224,7 @@ class HarmedRuns(unittest.TestCase):
     def verbs(self, run):
         return {
             "analyze": ["analyze", run],
-            "field": ["field", run, "-o", self.folder / "field.vti"],
+            "field": ["field", run, "-o", self.folder / "field.vti", "--time", "0.2"],  # in segment 1
             "info": ["info", run],
             "plot": ["plot", run],
             "resume": ["resume", run, "-q"],
@@ -266,8 +256,6 @@ class HarmedRuns(unittest.TestCase):
             if verb == "info":  # rests on the index alone
                 continue
             with self.subTest(verb):
-                if verb == "field":
-                    command = [*command, "--time", "0.1"]
                 self.expect(skein(*command), DAMAGED, "segments/000001.h5")
 
     def test_a_changed_segment_is_not_drawn(self):
@@ -366,5 +354,4 @@ class HarmedRuns(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    unittest.main()
+    cli_case.main()

@@ -1,6 +1,7 @@
 // One motion in other units of length, time and viscosity: the same steps, the same numbers, the same warnings. By
 // powers of two nothing is rounded, and all agree to the last bit.
 
+#include <skein/core/error.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/scene_times.hpp>
@@ -83,6 +84,7 @@ struct Course {
   std::vector<Regime> regimes;
   std::vector<Vec3> nodes;
   double length = 0.0;
+  bool is_given_up = false;  ///< before the end: some of these scenes tear their fibers
 };
 
 Course follow(const SceneConfig& scene) {
@@ -94,7 +96,14 @@ Course follow(const SceneConfig& scene) {
   ModelGuard guard(physics.fibers, physics.has_force_between_fibers());
   Course course;
   while (state.time < scene.time.end && state.step < most_steps) {
-    const StepReport report = integrator->advance(state, scene.time.end);
+    StepReport report;
+    try {
+      report = integrator->advance(state, scene.time.end);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::numerical) throw;
+      course.is_given_up = true;
+      break;
+    }
     course.time.push_back(state.time);
     course.error.push_back(report.error);
     course.stages.push_back(report.stages);
@@ -122,6 +131,7 @@ TEST(Units, OfPowersOfTwoChangeNoBit) {
     ASSERT_EQ(here.time.size(), there.time.size());
     for (std::size_t i = 0; i < here.time.size(); ++i)
       ASSERT_EQ(units.time * here.time[i], there.time[i]) << "step " << i;
+    EXPECT_EQ(here.is_given_up, there.is_given_up);
     EXPECT_EQ(here.error, there.error);
     EXPECT_EQ(here.stages, there.stages);
     EXPECT_EQ(here.rejected, there.rejected);

@@ -4,7 +4,7 @@ import random
 import shutil
 
 from program import DAMAGED, DONE, require
-from run_files import checkpoints, differences, final_state, read_checkpoint
+from run_files import checkpoints, differences, read_checkpoint, run_unbroken
 
 
 def cut(data, draw, _):
@@ -40,9 +40,7 @@ DAMAGES = [cut, flip, zero, append, flip, randomize, exchange, flip]
 
 def torture(program, counts, seed=5):
     draw = random.Random(seed)
-    unbroken = program.fresh("unbroken")
-    require(program.run(unbroken).returncode == DONE, "the unbroken run fails")
-    reference = final_state(unbroken)
+    reference = run_unbroken(program)
     stopped = program.fresh("stopped")
     program.run(stopped, SKEIN_TEST_KILL="step:100")
     other = program.fresh("other")

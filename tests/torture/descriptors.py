@@ -5,7 +5,7 @@ import os
 import subprocess
 
 from program import DONE, STOPPED, require
-from run_files import differences, final_state
+from run_files import differences, run_unbroken
 
 
 def call(program, command, closed):
@@ -24,9 +24,7 @@ def check_files(folder, what):
 
 
 def torture(program, counts):
-    unbroken = program.fresh("unbroken")
-    require(program.run(unbroken).returncode == DONE, "the unbroken run fails")
-    reference = final_state(unbroken)
+    reference = run_unbroken(program)
     choices = [closed for n in (1, 2, 3) for closed in itertools.combinations((0, 1, 2), n)]
     for _, closed in zip(range(counts["descriptors"]), itertools.cycle(choices)):
         what = f"{closed} closed"

@@ -6,7 +6,7 @@ import random
 import shutil
 
 from program import CANNOT_CREATE, DONE, require
-from run_files import checkpoints, differences, final_state
+from run_files import checkpoints, differences, run_unbroken
 
 KEPT = ["lock", "run.log", "events.jsonl"]  # continued where they are there: an error
 # Under their own names an index and a checkpoint would be read: not this promise.
@@ -52,9 +52,7 @@ def is_whole(precious):
 
 def torture(program, counts, seed=8):
     draw = random.Random(seed)
-    unbroken = program.fresh("unbroken")
-    require(program.run(unbroken).returncode == DONE, "the unbroken run fails")
-    reference = final_state(unbroken)
+    reference = run_unbroken(program)
     stopped = program.fresh("stopped")
     program.run(stopped, SKEIN_TEST_KILL="step:60")
     (stopped / "lock").unlink()

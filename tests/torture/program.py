@@ -77,7 +77,10 @@ class Program:
     def fresh(self, name):
         """A path without anything there."""
         path = self.folder / name
-        shutil.rmtree(path, ignore_errors=True)
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink(missing_ok=True)
         return path
 
     def environment(self, threads=1, **variables):

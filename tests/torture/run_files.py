@@ -5,6 +5,8 @@ import struct
 
 import h5py
 
+from program import DONE, require
+
 
 def read_arrays(folder):
     """Every frame and every step record of a run, as bytes by name."""
@@ -77,3 +79,10 @@ def final_state(folder):
 def differences(folder, reference):
     found = final_state(folder)
     return sorted(name for name in {*reference, *found} if reference.get(name) != found.get(name))
+
+
+def run_unbroken(program):
+    """The final state of a run that nothing happens to: what every other one is compared with."""
+    folder = program.fresh("unbroken")
+    require(program.run(folder).returncode == DONE, "the unbroken run fails")
+    return final_state(folder)

@@ -6,7 +6,7 @@ import random
 import shutil
 
 from program import CANNOT_CREATE, DAMAGED, DONE, IO_ERROR, MISSING, SCENE_ERROR, require
-from run_files import differences, final_state
+from run_files import differences, run_unbroken
 
 
 def remove(path):
@@ -89,9 +89,7 @@ def harm_once(program, stopped, harm, victim, reference):
 
 def torture(program, counts, seed=9):
     draw = random.Random(seed)
-    unbroken = program.fresh("unbroken")
-    require(program.run(unbroken).returncode == DONE, "the unbroken run fails")
-    reference = final_state(unbroken)
+    reference = run_unbroken(program)
     stopped = program.fresh("stopped")
     program.run(stopped, SKEIN_TEST_KILL="step:100")
     harms = HARMS if shutil.which("strace") else [harm for harm in HARMS if harm != "EIO"]

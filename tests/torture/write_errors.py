@@ -9,7 +9,7 @@ import shutil
 import subprocess
 
 from program import DONE, IO_ERROR, require
-from run_files import differences, final_state
+from run_files import differences, run_unbroken
 
 ERRORS = [("write", "ENOSPC"), ("write", "EIO"), ("fsync", "EIO"), ("rename", "ENOSPC"), ("write", "EDQUOT")]
 # A sanitized program under strace: its search for leaks would need the place that strace has taken.
@@ -98,9 +98,7 @@ def can_mount(program):
 
 def torture(program, counts, seed=4):
     draw = random.Random(seed)
-    folder = program.fresh("unbroken")
-    require(program.run(folder).returncode == DONE, "the unbroken run fails")
-    reference = final_state(folder)
+    reference = run_unbroken(program)
     remarks = []
     n_disks = counts["full_disks"]
     if can_mount(program):

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace skein {
@@ -62,6 +63,8 @@ TEST(MutatedScene, EveryWrongValueOfEveryKeyIsFoundAtItsLine) {
     for (const char* wrong : {"nan", "inf", "-inf", "-1e300", "1e300", "true", "1979-05-27", "{}", "[[1]]", "[]",
                               "[nan, 1.0, 1.0]", "[0.0, 0.0, 0.0, 0.0]", "\"word\""}) {
       if (key == "title" && wrong[0] == '"') continue;
+      const std::string_view value = wrong;
+      if (key == "max_step" && (value == "inf" || value == "1e300")) continue;  // as good as none
       auto lines = valid;
       lines[i] = key + " = " + wrong;
       expect_single_problem(lines, i, key + " must be ");
