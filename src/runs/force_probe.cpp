@@ -5,17 +5,6 @@
 #include <span>
 
 namespace skein {
-namespace {
-
-/// E, the symmetric part of a velocity gradient.
-Matrix3 compute_strain_rate(const VelocityGradient& gradient) {
-  Matrix3 strain{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) strain[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
-  return strain;
-}
-
-}  // namespace
 
 std::vector<ForceRecord> probe_forces(const Physics& physics, const Frame& frame) {
   const auto position = to_device("skein::probe_forces::position", frame.position);
@@ -49,8 +38,8 @@ std::vector<ForceRecord> probe_forces(const Physics& physics, const Frame& frame
     record.power = compute_power_balance(part(f), part(u), part(b));
     record.power.drive = drive[i];
     record.stresslet = compute_stresslet(moments[i]);
-    record.viscosity_contribution = compute_viscosity_contribution(
-        record.stresslet, compute_strain_rate(physics.flow->gradient(frame.time, middle)), physics.viscosity);
+    record.viscosity_contribution =
+        compute_viscosity_contribution(record.stresslet, physics.flow->gradient(frame.time, middle), physics.viscosity);
     records.push_back(record);
   }
   return records;

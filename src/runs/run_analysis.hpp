@@ -45,7 +45,8 @@ RunAnalysis analyze_run(const RunFolder& folder, bool with_forces);
 
 /// Largest |E(t) - E(0) - integral of the elastic power|, by the trapezoidal rule over frames, over what the fluid
 /// dissipated: how well the powers of springs, flow and fluid add up. Of all fibers together where forces between
-/// them pass energy from one to the other. NaN without forces or without motion.
+/// them pass energy from one to the other. NaN without forces, and where the fluid takes no more
+/// than a fiber's rounding does.
 double measure_energy_defect(const RunAnalysis& analysis, int fiber);
 
 /// diagnostics.csv, a row for each frame and fiber, and diagnostics.h5, the same by fibers with curvature along the

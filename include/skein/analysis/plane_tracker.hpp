@@ -12,7 +12,8 @@ namespace skein {
 ///
 /// In a flow that turns fibers the normal points to the side of the flow's, wherever it leans to one by more than a
 /// tenth. Else it stays on the side of the moment before, and the first strong bend, counted from the first section, of
-/// the first moment at which the fiber is bent at all is positive. No choice refers to the axes of space.
+/// the first moment at which the fiber is bent is positive: of the first bend beyond rounding until one is strong. No
+/// choice refers to the axes of space.
 class PlaneTracker {
  public:
   explicit PlaneTracker(const FlowFrame& flow) : flow_(flow) {}
@@ -28,7 +29,9 @@ class PlaneTracker {
  private:
   FlowFrame flow_;
   Vec3 before_;  ///< the normal of the moment before; zero at first
-  bool sign_is_known_ = false;
+  /// What the sign was chosen by.
+  enum class Evidence { none, weak_bend, certain };
+  Evidence sign_ = Evidence::none;
 };
 
 }  // namespace skein
