@@ -15,6 +15,7 @@ constexpr double half_turn_of_space = 2.0 * std::numbers::pi;  ///< solid angle 
 /// Looks for the nodes of one block of sections, or of one section on devices, inside of surfaces.
 template <class Space>
 struct PenetrationSearch {
+  static constexpr double margin = 1e-9;  ///< in radii, for rounding
   static constexpr int items_per_block = on_host<Space> ? 1 : sections_per_block;
   TubeSurfaces<Space> surfaces;
   ScalarView<Space> depth;
@@ -107,7 +108,9 @@ struct PenetrationSearch {
       const double square = prism.squared_distance();
       if (square < least) least = square;
     });
-    return math::sqrt(least);
+    // Nodes of planar fibers lie on each other's surfaces: rounding does not decide.
+    const double depth = math::sqrt(least);
+    return depth > margin * surfaces.sections.fiber(tube).radius ? depth : 0.0;
   }
 
   /// Calls body(prism) for those of a tube's prisms that may be within a distance of a point.
@@ -115,7 +118,7 @@ struct PenetrationSearch {
   template <class Body>
   KOKKOS_INLINE_FUNCTION void for_each_prism_within(const double& square, const int tube, const HiddenPrisms& hidden,
                                                     const Vec3 point, const Body& body) const {
-    constexpr double margin = 1e-9;  // in radii: a point on the face that two prisms share must see both
+    // A point on the face that two prisms share must see both.
     const FiberSections& fiber = surfaces.sections.fiber(tube);
     for (int block = fiber.first_block; block < fiber.end_block(); ++block) {
       double distance = math::sqrt(square) + margin * fiber.radius;

@@ -1,4 +1,5 @@
 #include <skein/analysis/circle_fit.hpp>
+#include <skein/analysis/plane_fit.hpp>
 
 #include <Eigen/Dense>
 
@@ -48,26 +49,19 @@ Circle fit_circle(const std::span<const Vec3> points) {
   none.radius = std::numeric_limits<double>::infinity();
   const auto n = static_cast<Eigen::Index>(points.size());
   if (n < 3) return none;
-  Columns3 all(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) all.row(i) << points[i].x, points[i].y, points[i].z;
-  const Eigen::RowVector3d middle = all.colwise().mean();
-  all.rowwise() -= middle;
-  // The singular values and right vectors of A P = Q R are those of R P^T.
-  const Factors3 qr(all);
-  const Eigen::Matrix3d triangle = qr.matrixR().topRows<3>().triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> plane(triangle * qr.colsPermutation().transpose(), Eigen::ComputeFullV);
-  const auto& width = plane.singularValues();
-  constexpr double straight = 1e-9;
-  if (!(width[1] > straight * width[0])) return none;
+  const PlaneFit plane = fit_plane(points);
+  const double scale = plane.width[0];
+  if (!(plane.width[1] > straight * scale)) return none;
 
-  const Points2 flat = (all * plane.matrixV().leftCols<2>()) / width[0];  // of order one
+  Points2 flat(n, 2);  // of order one
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vec3 d = (points[i] - plane.center) / scale;
+    flat.row(i) << dot(d, plane.along), dot(d, plane.across);
+  }
   const Eigen::Vector3d circle = refine(flat, fit_algebraic(flat));
-  const Eigen::Vector3d center = middle.transpose() + plane.matrixV().leftCols<2>() * circle.head<2>() * width[0];
-  const Eigen::Vector3d normal = plane.matrixV().col(2);
-  return {{center[0], center[1], center[2]},
-          circle[2] * width[0],
-          {normal[0], normal[1], normal[2]},
-          residuals(flat, circle).norm() * width[0] / std::sqrt(static_cast<double>(n))};
+  const Vec3 center = plane.center + scale * (circle[0] * plane.along + circle[1] * plane.across);
+  return {center, circle[2] * scale, plane.normal,
+          residuals(flat, circle).norm() * scale / std::sqrt(static_cast<double>(n))};
 }
 
 }  // namespace skein

@@ -1,4 +1,5 @@
 #include <skein/analysis/fiber_history.hpp>
+#include <skein/analysis/plane_fit.hpp>
 #include <skein/core/error.hpp>
 
 #include <algorithm>
@@ -41,37 +42,50 @@ LineFit fit_first_growth(const std::vector<double>& time, const std::vector<doub
 
 }  // namespace
 
-FiberHistory::FiberHistory(const Fiber& fiber, const double time_scale)
-    : fiber_(fiber), time_scale_(time_scale), reach_(choose_curvature_reach(fiber)) {}
+FiberHistory::FiberHistory(const Fiber& fiber, const FlowFrame& flow, const double time_scale)
+    : fiber_(fiber), flow_(flow), plane_(flow), time_scale_(time_scale), reach_(choose_curvature_reach(fiber)) {}
 
 void FiberHistory::add(const double time, const std::span<const Vec3> centreline) {
   SKEIN_REQUIRE(static_cast<int>(centreline.size()) == fiber_.config.sections, "one point for each section");
   SKEIN_REQUIRE(time_.empty() || time > time_.back(), "times grow");
+  const PlaneTracker::Plane plane = plane_.follow(centreline, reach_);
+  if (plane.turns_over) turn_over();
   const auto arclength = compute_arclength(centreline);
-  const auto curvature = compute_signed_curvature(centreline, reach_);
+  const auto curvature = compute_signed_curvature(centreline, reach_, plane.normal);
   time_.push_back(time);
   arclength_.insert(arclength_.end(), arclength.begin(), arclength.end());
   curvature_.insert(curvature_.end(), curvature.begin(), curvature.end());
-  shapes_.push_back(measure_shape(centreline, reach_));
+  shapes_.push_back(measure_shape(centreline, reach_, plane.normal));
+  if (flow_.has_plane()) out_of_flow_plane_.push_back(find_largest_height(centreline, flow_.normal));
   regimes_.push_back(classify_shape(shapes_.back(), fiber_.config.radius));
   hooks_[0].push_back(find_hook(centreline, arclength, curvature, FiberEnd::first));
   hooks_[1].push_back(find_hook(centreline, arclength, curvature, FiberEnd::last));
 }
 
+void FiberHistory::turn_over() {
+  for (double& kappa : curvature_) kappa = -kappa;
+  for (Shape& shape : shapes_) shape.turn_over();
+  for (auto& hooks : hooks_)
+    for (auto& hook : hooks)
+      if (hook) hook->bend.turning = -hook->bend.turning;
+}
+
 std::vector<double> FiberHistory::angles() const {
-  std::vector<double> angle;
-  for (const Shape& shape : shapes_) angle.push_back(shape.angle);
-  return unwrap_angles(angle);
+  std::vector<Vec3> end_to_end;
+  for (const Shape& shape : shapes_) end_to_end.push_back(shape.end_to_end);
+  return measure_angles(flow_, end_to_end);
 }
 
 std::vector<ExtremumTrack> FiberHistory::make_tracks() const {
   double peak = 0.0;
   for (const Shape& shape : shapes_) peak = std::max(peak, shape.curvature_max);
+  // A fiber that never bends has extrema of rounding.
+  const double least = std::max(least_share_of_peak * peak, least_bend_turning / fiber_.length());
   const auto n = static_cast<std::size_t>(fiber_.config.sections);
   std::vector<std::vector<CurvatureExtremum>> extrema;
   for (std::size_t moment = 0; moment < time_.size(); ++moment)
     extrema.push_back(find_curvature_extrema(std::span(arclength_).subspan(moment * n, n),
-                                             std::span(curvature_).subspan(moment * n, n), least_share_of_peak * peak));
+                                             std::span(curvature_).subspan(moment * n, n), least));
   constexpr double radii_per_step = 3.0;
   return track_extrema(time_, extrema, radii_per_step * fiber_.config.radius);
 }
@@ -111,9 +125,11 @@ std::optional<Snaking> FiberHistory::measure_snaking() const {
 FiberSummary FiberHistory::summarize() const {
   SKEIN_REQUIRE(!time_.empty(), "a history has moments");
   FiberSummary summary;
-  const auto angle = angles();
-  summary.passages = find_passages(time_, angle);
-  summary.half_periods = find_half_periods(time_, angle);
+  if (flow_.turns_fibers()) {
+    const auto angle = angles();
+    summary.passages = find_passages(time_, angle);
+    summary.half_periods = find_half_periods(time_, angle);
+  }
   summary.changes = find_regime_changes(time_, regimes_);
   summary.regime = classify_run(regimes_);
   summary.tracks = make_tracks();
@@ -131,6 +147,10 @@ FiberSummary FiberHistory::summarize() const {
     deflection.push_back(shape.deflection);
   }
   const double rounding = std::numeric_limits<double>::epsilon() * fiber_.length();
+  if (flow_.has_plane()) {
+    out_of_plane = out_of_flow_plane_;
+    summary.out_of_flow_plane_max = *std::max_element(out_of_plane.begin(), out_of_plane.end());
+  }
   summary.out_of_plane_growth = fit_growth(time_, out_of_plane, 1e3 * rounding, 0.1 * fiber_.config.radius);
   summary.deflection_growth = fit_first_growth(time_, deflection, fiber_.length());
   return summary;

@@ -34,9 +34,15 @@ Matrix3 compute_stresslet(const SymmetricTensor& moment) {
   return stresslet;
 }
 
-double compute_viscosity_contribution(const Matrix3& stresslet, const Matrix3& strain_rate, const double viscosity) {
+double compute_viscosity_contribution(const Matrix3& stresslet, const Matrix3& gradient, const double viscosity) {
+  Matrix3 strain_rate{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) strain_rate[i][j] = 0.5 * (gradient[i][j] + gradient[j][i]);
   const double strain = contract(strain_rate, strain_rate);
-  if (!(strain > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  // A rotation that is not about an axis of space has the strain of its rounding.
+  constexpr double negligible = 1e-12;
+  if (!(strain > negligible * negligible * contract(gradient, gradient)))
+    return std::numeric_limits<double>::quiet_NaN();
   return contract(stresslet, strain_rate) / (2.0 * viscosity * strain);
 }
 

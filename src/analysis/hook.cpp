@@ -13,7 +13,9 @@ std::optional<Hook> find_hook(const std::span<const Vec3> centreline, const std:
   hook.bend = end == FiberEnd::first ? bends.front() : bends.back();
   const int peak = hook.bend.peak;
   hook.arclength = end == FiberEnd::first ? arclength[peak] : arclength.back() - arclength[peak];
-  if (hook.arclength > 0.5 * arclength.back()) return std::nullopt;
+  // The middle section, to rounding, is in both halves.
+  constexpr double half_with_rounding = 0.5 * (1.0 + 1e-9);
+  if (hook.arclength > half_with_rounding * arclength.back()) return std::nullopt;
 
   const double half = 0.5 * std::abs(curvature[peak]);
   int first = peak, last = peak;

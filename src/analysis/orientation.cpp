@@ -13,7 +13,9 @@ constexpr double aligned = 0.02;  // radians: a fiber that starts so near to a q
 
 }  // namespace
 
-double compute_clockwise_angle(const Vec3 vector) { return -std::atan2(vector.y, vector.x) + 0.0; }
+double compute_clockwise_angle(const Vec3 vector, const FlowFrame& frame) {
+  return -std::atan2(dot(vector, frame.gradient), dot(vector, frame.along)) + 0.0;
+}
 
 std::vector<double> unwrap_angles(const std::span<const double> angle) {
   std::vector<double> unwrapped(angle.begin(), angle.end());

@@ -1,5 +1,5 @@
 #include <skein/analysis/centreline.hpp>
-#include <skein/analysis/orientation.hpp>
+#include <skein/analysis/plane_fit.hpp>
 #include <skein/analysis/shape.hpp>
 
 #include <algorithm>
@@ -28,10 +28,7 @@ double compute_symmetry_defect(const std::span<const Vec3> line) {
 }
 
 double compute_out_of_plane(const std::span<const Vec3> line) {
-  const double middle = compute_centroid(line).z;
-  double largest = 0.0;
-  for (const Vec3 point : line) largest = std::max(largest, std::abs(point.z - middle));
-  return largest;
+  return find_largest_height(line, fit_plane(line).normal);
 }
 
 double compute_deflection(const std::span<const Vec3> line) {
@@ -47,21 +44,30 @@ double compute_deflection(const std::span<const Vec3> line) {
   return std::sqrt(sum / static_cast<double>(line.size()));
 }
 
-Shape measure_shape(const std::span<const Vec3> line, const int reach) {
+void Shape::turn_over() {
+  normal = -normal;
+  for (Bend& bend : bends) bend.turning = -bend.turning;
+}
+
+Shape measure_shape(const std::span<const Vec3> line, const int reach, const Vec3 normal) {
   Shape shape;
   const auto arclength = compute_arclength(line);
-  const auto curvature = compute_signed_curvature(line, reach);
-  const Vec3 ends = compute_end_to_end(line);
+  const auto curvature = compute_signed_curvature(line, reach, normal);
   shape.length = arclength.back();
-  shape.distance = norm(ends);
-  shape.angle = compute_clockwise_angle(ends);
+  shape.end_to_end = compute_end_to_end(line);
+  shape.distance = norm(shape.end_to_end);
+  shape.normal = normal;
   for (const double kappa : curvature) shape.curvature_max = std::max(shape.curvature_max, std::abs(kappa));
   shape.total_turning = compute_total_turning(arclength, curvature);
   shape.symmetry_defect = compute_symmetry_defect(line);
-  shape.out_of_plane = compute_out_of_plane(line);
+  shape.out_of_plane = find_largest_height(line, normal);
   shape.deflection = compute_deflection(line);
   shape.bends = find_bends(arclength, curvature, least_bend_turning);
   return shape;
+}
+
+Shape measure_shape(const std::span<const Vec3> line, const int reach) {
+  return measure_shape(line, reach, fit_plane(line).normal);
 }
 
 }  // namespace skein

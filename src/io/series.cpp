@@ -152,12 +152,15 @@ Series make_step_series(const TrajectoryLayout& layout) {
   const hsize_t n_fibers = layout.fibers.size();
   return {"step record",
           {{"/observables/energy", Number::float64, {n_fibers}, "force*length"},
-           {"/observables/length", Number::float64, {n_fibers}, "length"},
+           {"/observables/centreline_length", Number::float64, {n_fibers}, "length"},
            {"/observables/curvature_max", Number::float64, {n_fibers}, "1/length"},
            {"/observables/symmetry_defect", Number::float64, {n_fibers}, ""},
            {"/observables/out_of_plane", Number::float64, {n_fibers}, "length"},
            {"/observables/end_to_end", Number::float64, {n_fibers, 3}, "length"},
            {"/observables/smallest_gap", Number::float64, {}, "length"},
+           {"/observables/nodes_inside", Number::int64, {}, ""},
+           {"/observables/depth", Number::float64, {}, "length"},
+           {"/observables/crossings", Number::int64, {}, ""},
            {"/observables/dt", Number::float64, {}, "time"},
            {"/observables/error", Number::float64, {}, ""},
            {"/observables/estimated_error", Number::float64, {}, "length"},
@@ -170,13 +173,14 @@ Series make_step_series(const TrajectoryLayout& layout) {
 
 void append(Series& series, const StepRecord& record) {
   const auto evaluations = static_cast<double>(record.evaluations);  // exact below 2^53
+  const auto inside = static_cast<double>(record.nodes_inside), crossings = static_cast<double>(record.crossings);
   const auto order = static_cast<double>(record.fmm_order), misses = static_cast<double>(record.fmm_misses);
   const auto one = [](const double& value) { return std::span<const double>(&value, 1); };
   series.append(record.step, record.time,
                 {record.energy, record.length, record.curvature_max, record.symmetry_defect, record.out_of_plane,
-                 as_doubles(record.end_to_end), one(record.smallest_gap), one(record.dt), one(record.error),
-                 one(record.estimated_error), one(record.spectral_radius), one(evaluations), one(record.velocity_error),
-                 one(order), one(misses)});
+                 as_doubles(record.end_to_end), one(record.smallest_gap), one(inside), one(record.depth),
+                 one(crossings), one(record.dt), one(record.error), one(record.estimated_error),
+                 one(record.spectral_radius), one(evaluations), one(record.velocity_error), one(order), one(misses)});
 }
 
 }  // namespace skein

@@ -45,6 +45,15 @@ FlowTerm make_term(const FlowConfig& flow, const double time) {
   return row_of(flow.kind).make_term(flow, compute_rate(flow, time));
 }
 
+void add_gradient(const FlowTerm& term, const Vec3 position, VelocityGradient& sum) {
+  const FlowGradient part = compute_flow_gradient(term, position);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum[i][0] += part[i].x;
+    sum[i][1] += part[i].y;
+    sum[i][2] += part[i].z;
+  }
+}
+
 std::string describe_flow(const FlowConfig& flow) {
   const FlowRow& row = row_of(flow.kind);
   if (is_steady(flow)) return row.describe_velocity(flow, fmt::format("{:g}", flow.rate));
@@ -77,14 +86,7 @@ void SceneFlow::add_velocity(const double time, const ConstVectors& position, co
 
 VelocityGradient SceneFlow::gradient(const double time, const Vec3 position) const {
   VelocityGradient sum{};
-  for (const FlowConfig& flow : flows_) {
-    const FlowGradient part = compute_flow_gradient(make_term(flow, time), position);
-    for (std::size_t i = 0; i < 3; ++i) {
-      sum[i][0] += part[i].x;
-      sum[i][1] += part[i].y;
-      sum[i][2] += part[i].z;
-    }
-  }
+  for (const FlowConfig& flow : flows_) add_gradient(make_term(flow, time), position, sum);
   return sum;
 }
 
@@ -121,6 +123,14 @@ std::string SceneFlow::describe() const {
 
 std::unique_ptr<BackgroundFlow> make_background_flow(const std::vector<FlowConfig>& flows) {
   return std::make_unique<SceneFlow>(flows);
+}
+
+VelocityGradient compute_typical_gradient(const std::vector<FlowConfig>& flows, const Vec3 position) {
+  VelocityGradient sum{};
+  for (const FlowConfig& flow : flows)
+    if (const FlowRow& row = row_of(flow.kind); !row.is_at_rest())
+      add_gradient(row.make_term(flow, flow.rate), position, sum);
+  return sum;
 }
 
 FlowSummary summarize_flow(const std::vector<FlowConfig>& flows) {

@@ -14,12 +14,42 @@ namespace {
 
 double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
+template <class Value>
+Value largest(const std::vector<Value>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+std::string describe_contact(const RunAnalysis& analysis) {
+  const int nodes = largest(analysis.nodes_inside), crossings = analysis.crossings.back();
+  std::string text = fmt::format("smallest gap {:.4g}; ", smallest(analysis.smallest_gap));
+  text += nodes == 0
+              ? "no node inside of another surface; "
+              : fmt::format("up to {} nodes inside of another surface, {:.4g} deep; ", nodes, largest(analysis.depth));
+  return text + (crossings == 0 ? "no centreline passed through another"
+                                : fmt::format("centrelines passed through each other {} times", crossings));
+}
+
 std::string describe_passages(const FiberSummary& summary) {
   std::string upright, aligned;
   for (const Passage& passage : summary.passages)
     (passage.quarter_turns % 2 == 0 ? aligned : upright) += fmt::format(" {:.4g}", passage.time);
-  return fmt::format("  upright {}\n  aligned with x {}\n", upright.empty() ? "at no time" : "at t =" + upright,
-                     aligned.empty() ? "at no time since the start" : "at t =" + aligned);
+  std::string text =
+      fmt::format("  upright {}\n  aligned with the flow {}\n", upright.empty() ? "at no time" : "at t =" + upright,
+                  aligned.empty() ? "at no time since the start" : "at t =" + aligned);
+  if (!summary.half_periods.empty()) {
+    text += "  half periods:";
+    for (const double period : summary.half_periods) text += fmt::format(" {:.4g}", period);
+    text += "\n";
+  }
+  return text;
+}
+
+// Without vorticity nothing turns a fiber about again and again.
+std::string describe_angles(const FiberHistory& history) {
+  const auto angles = history.angles();
+  const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
+  return fmt::format("  angle from the {}: {:.4g} to {:.4g} degrees; a flow without vorticity has no half periods\n",
+                     name_of(history.flow().angle_origin), degrees * *low, degrees * *high);
 }
 
 // Of a logarithm's variance that a line has to explain: bends that a flow forces grow otherwise.
@@ -38,12 +68,8 @@ std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber)
   for (const RegimeChange& change : summary.changes)
     text += fmt::format(" {} from t = {:.4g}{}", name_of(change.regime), change.time,
                         &change == &summary.changes.back() ? "\n" : ",");
-  text += describe_passages(summary);
-  if (!summary.half_periods.empty()) {
-    text += "  half periods:";
-    for (const double period : summary.half_periods) text += fmt::format(" {:.4g}", period);
-    text += "\n";
-  }
+  const FiberHistory& history = analysis.histories[fiber];
+  text += history.flow().turns_fibers() ? describe_passages(summary) : describe_angles(history);
   text += fmt::format("  largest curvature {:.4g}, stretch {:.3g} to {:.3g} %\n", summary.curvature_max,
                       100.0 * summary.stretch_min, 100.0 * summary.stretch_max);
   text += fmt::format("  extrema of curvature: {}, {} tracked\n", name_of(summary.wave), summary.tracks.size());
@@ -51,8 +77,10 @@ std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber)
     text += fmt::format("  hooks: radius {:.4g}, snaking speed {:.4g} (t = {:.4g} to {:.4g}, r^2 = {:.3f})\n",
                         summary.snaking->hook_radius, summary.snaking->speed, summary.snaking->begin,
                         summary.snaking->end, summary.snaking->determination);
-  text += fmt::format("  symmetry defect at most {:.3g} of the length, out of the plane at most {:.3g}\n",
-                      summary.symmetry_defect_max, summary.out_of_plane_max);
+  text += fmt::format(
+      "  symmetry defect at most {:.3g} of the centreline length, out of its own plane at most {:.3g}{}\n",
+      summary.symmetry_defect_max, summary.out_of_plane_max,
+      summary.out_of_flow_plane_max ? fmt::format(", out of the flow's {:.3g}", *summary.out_of_flow_plane_max) : "");
   text += describe_growth("out-of-plane growth rate", summary.out_of_plane_growth, 0.0);
   text += describe_growth("buckling: deflection grows at rate", summary.deflection_growth, exponential);
   if (!analysis.forces.empty()) {
@@ -98,12 +126,15 @@ void write_hooks(JsonWriter& json, const std::optional<Snaking>& snaking) {
 void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_t fiber) {
   const FiberSummary summary = analysis.histories[fiber].summarize();
   json.begin_object().member("fiber", fiber).member("regime", name_of(summary.regime));
+  json.member("angle_from", name_of(analysis.histories[fiber].flow().angle_origin));
   write_passages(json, summary);
   json.member("curvature_max", summary.curvature_max);
   json.key("stretch").begin_array().value(summary.stretch_min).value(summary.stretch_max).end_array();
   json.member("wave", name_of(summary.wave)).member("tracks", summary.tracks.size());
   write_hooks(json, summary.snaking);
   json.member("symmetry_defect", summary.symmetry_defect_max).member("out_of_plane", summary.out_of_plane_max);
+  json.key("out_of_flow_plane");
+  summary.out_of_flow_plane_max ? json.value(*summary.out_of_flow_plane_max) : json.null();
   json.member("out_of_plane_growth", summary.out_of_plane_growth.slope);
   json.member("deflection_growth", summary.deflection_growth.slope);
   json.member("deflection_growth_r2", summary.deflection_growth.determination);
@@ -113,8 +144,8 @@ void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_
 }  // namespace
 
 std::string describe_analysis(const RunAnalysis& analysis) {
-  std::string text = fmt::format("{} frames to t = {:.6g} ({}); smallest gap {:.4g}\n", analysis.time.size(),
-                                 analysis.time.back(), analysis.status, smallest(analysis.smallest_gap));
+  std::string text = fmt::format("{} frames to t = {:.6g} ({}); {}\n", analysis.time.size(), analysis.time.back(),
+                                 analysis.status, describe_contact(analysis));
   for (std::size_t f = 0; f < analysis.fibers.size(); ++f) text += describe_fiber(analysis, f);
   return text;
 }
@@ -124,6 +155,8 @@ std::string describe_analysis_as_json(const RunAnalysis& analysis) {
   JsonWriter json(n_open_levels);
   json.begin_object().member("frames", analysis.time.size()).member("last_time", analysis.time.back());
   json.member("status", analysis.status).member("smallest_gap", smallest(analysis.smallest_gap));
+  json.member("nodes_inside", largest(analysis.nodes_inside)).member("depth", largest(analysis.depth));
+  json.member("crossings", analysis.crossings.back());
   json.key("fibers").begin_array();
   for (std::size_t f = 0; f < analysis.fibers.size(); ++f) write_fiber(json, analysis, f);
   return json.end_array().end_object().take() + "\n";

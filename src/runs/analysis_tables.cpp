@@ -9,12 +9,11 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 
 namespace skein {
 namespace {
 
-constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns of one fiber, a value for each frame.
 class Columns {
@@ -37,7 +36,6 @@ class Columns {
 
 void add_hook(Columns& columns, const char* radius_name, const char* place_name,
               const std::vector<std::optional<Hook>>& hooks) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   columns.add(radius_name, "length", [&](const std::size_t i) { return hooks[i] ? hooks[i]->circle.radius : none; });
   columns.add(place_name, "length", [&](const std::size_t i) { return hooks[i] ? hooks[i]->arclength : none; });
 }
@@ -67,15 +65,21 @@ std::vector<NamedArray> make_columns(const RunAnalysis& analysis, const std::siz
   columns.add("regime", "", [&](const std::size_t i) { return static_cast<double>(history.regimes()[i]); });
   columns.add("angle", "degree", [&](const std::size_t i) { return degrees * angle[i]; });
   columns.add("distance", "length", [&](const std::size_t i) { return shapes[i].distance; });
-  columns.add("length", "length", [&](const std::size_t i) { return shapes[i].length; });
+  columns.add("centreline_length", "length", [&](const std::size_t i) { return shapes[i].length; });
   columns.add("stretch", "", [&](const std::size_t i) { return shapes[i].length / shapes[0].length - 1.0; });
   columns.add("curvature_max", "1/length", [&](const std::size_t i) { return shapes[i].curvature_max; });
   columns.add("total_turning", "degree", [&](const std::size_t i) { return degrees * shapes[i].total_turning; });
   columns.add("bends", "", [&](const std::size_t i) { return static_cast<double>(shapes[i].bends.size()); });
   columns.add("symmetry_defect", "", [&](const std::size_t i) { return shapes[i].symmetry_defect; });
   columns.add("out_of_plane", "length", [&](const std::size_t i) { return shapes[i].out_of_plane; });
+  columns.add("out_of_flow_plane", "length", [&](const std::size_t i) {
+    return history.out_of_flow_plane().empty() ? none : history.out_of_flow_plane()[i];
+  });
   columns.add("deflection", "length", [&](const std::size_t i) { return shapes[i].deflection; });
   columns.add("smallest_gap", "length", [&](const std::size_t i) { return analysis.smallest_gap[i]; });
+  columns.add("nodes_inside", "", [&](const std::size_t i) { return static_cast<double>(analysis.nodes_inside[i]); });
+  columns.add("depth", "length", [&](const std::size_t i) { return analysis.depth[i]; });
+  columns.add("crossings", "", [&](const std::size_t i) { return static_cast<double>(analysis.crossings[i]); });
   add_hook(columns, "first_hook_radius", "first_hook_place", history.hooks(FiberEnd::first));
   add_hook(columns, "last_hook_radius", "last_hook_place", history.hooks(FiberEnd::last));
   if (!analysis.forces.empty()) add_forces(columns, analysis.forces[fiber]);
@@ -105,7 +109,6 @@ void add_tracks(const FiberSummary& summary, const double fiber_length, const st
 
 /// Of the circle at the first section's end; NaN where there is no hook.
 NamedArray make_hook_centers(const FiberHistory& history, const std::string& group) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   NamedArray centers{group + "first_hook_center", "length", {history.time().size(), 3}, {}};
   for (const auto& hook : history.hooks(FiberEnd::first)) {
     const Vec3 center = hook ? hook->circle.center : Vec3{none, none, none};
@@ -114,10 +117,33 @@ NamedArray make_hook_centers(const FiberHistory& history, const std::string& gro
   return centers;
 }
 
+/// Rows: along, gradient, normal, see FlowFrame; zero where the flow has no such direction.
+NamedArray make_flow_frame_rows(const FlowFrame& flow, const std::string& group) {
+  NamedArray rows{group + "flow_frame", "", {3, 3}, {}};
+  for (const Vec3 row : {flow.along, flow.gradient, flow.normal})
+    rows.values.insert(rows.values.end(), {row.x, row.y, row.z});
+  return rows;
+}
+
+/// Of the fiber's own plane, about which its curvature is positive counter-clockwise.
+NamedArray make_normals(const FiberHistory& history, const std::string& group) {
+  NamedArray normals{group + "normal", "", {history.time().size(), 3}, {}};
+  for (const Shape& shape : history.shapes())
+    normals.values.insert(normals.values.end(), {shape.normal.x, shape.normal.y, shape.normal.z});
+  return normals;
+}
+
 std::string list_regimes() {
   std::string text;
   for (int i = 0; i <= static_cast<int>(Regime::three_dimensional); ++i)
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, name_of(static_cast<Regime>(i)));
+  return text;
+}
+
+std::string list_angle_origins() {
+  std::string text;
+  for (int i = 0; i <= static_cast<int>(AngleOrigin::own_direction); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", i, name_of(static_cast<AngleOrigin>(i)));
   return text;
 }
 
@@ -149,6 +175,9 @@ void write_analysis(const RunAnalysis& analysis, const std::filesystem::path& fo
     const FiberSummary summary = history.summarize();
     add_tracks(summary, analysis.fibers[f].length(), group, arrays);
     arrays.push_back(make_hook_centers(history, group));
+    arrays.push_back(make_flow_frame_rows(history.flow(), group));
+    arrays.push_back({group + "angle_origin", "", {1}, {static_cast<double>(history.flow().angle_origin)}});
+    arrays.push_back(make_normals(history, group));
     NamedArray snaking{group + "snaking", "", {0, 5}, {}};
     if (const auto& s = summary.snaking) {
       snaking.shape[0] = 1;
@@ -160,6 +189,8 @@ void write_analysis(const RunAnalysis& analysis, const std::filesystem::path& fo
                    {{"regimes", list_regimes()},
                     {"track_points", "track, time, arclength, signed curvature"},
                     {"tracks", "first time, last time, intercept, speed, determination, wave"},
+                    {"angle_origins", list_angle_origins()},
+                    {"flow_frame", "along, gradient, normal"},
                     {"snaking", "from, to, hook radius, speed, determination"},
                     {"waves", "0 standing, 1 travelling, 2 unclear"}});
   write_csv(folder / "diagnostics.csv", table);

@@ -45,7 +45,16 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
     meet(contact, record.smallest_gap < worst_[contact] * blob_, record.smallest_gap / blob_,
          fmt::format("surfaces are {:.3g} apart, less than a blob, {:.3g}: {}", record.smallest_gap, blob_,
                      has_repulsion_ ? "the repulsion is weak here; take a larger repulsion.strength"
-                                    : "nothing keeps them from passing through each other; a [repulsion] would"));
+                                    : "only the fluid between them holds them off; a [repulsion] would, too"));
+  if (record.nodes_inside > 0)
+    meet(penetration, record.depth > worst_[penetration] * blob_, record.depth / blob_,
+         fmt::format("{} nodes are inside of another surface, the deepest by {:.3g}; the blob is {:.3g}",
+                     record.nodes_inside, record.depth, blob_));
+  most_inside_ = std::max(most_inside_, record.nodes_inside);
+  if (const auto n_crossings = static_cast<double>(record.crossings); n_crossings > worst_[crossing])
+    meet(crossing, true, n_crossings,
+         "centrelines have passed through each other: the shapes from here on are none "
+         "that fibers could have");
   return news;
 }
 
@@ -59,15 +68,21 @@ std::string ModelGuard::describe() const {
   add(sharp_hook, fmt::format("bends down to {:.2g} of the sections' distance", 1.0 / worst_[sharp_hook]));
   add(strained_spring, fmt::format("springs strained by up to {:.0f} %", 100.0 * worst_[strained_spring]));
   add(contact, fmt::format("gaps down to {:.2g} blobs", worst_[contact]));
+  add(penetration, fmt::format("nodes inside of another surface, up to {} of them, {:.2g} blobs deep", most_inside_,
+                               worst_[penetration]));
+  add(crossing, fmt::format("centrelines that pass through each other, {} times in all", worst_[crossing]));
+  if (n_steps_[contact] > 0 && n_steps_[crossing] == 0) text += "; no centreline passed through another";
   return text;
 }
 
 void ModelGuard::visit_memory(NumberVisitor& visitor) {
-  const char* names[n_kinds] = {"guard.sharp_hook", "guard.strained_spring", "guard.contact"};
+  const char* names[n_kinds] = {"guard.sharp_hook", "guard.strained_spring", "guard.contact", "guard.penetration",
+                                "guard.crossing"};
   for (int kind = 0; kind < n_kinds; ++kind) {
     visitor.integer(std::string(names[kind]) + ".steps", n_steps_[kind]);
     visitor.number(std::string(names[kind]) + ".worst", worst_[kind]);
   }
+  visitor.integer("guard.most_inside", most_inside_);
 }
 
 }  // namespace skein

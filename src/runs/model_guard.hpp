@@ -12,7 +12,8 @@
 namespace skein {
 
 /// Watches for what the model cannot resolve: hooks sharper than the sections' spacing, springs strained by more than a
-/// half, fibers (or distant sections of one) closer than a blob. Each kind is told once, and counted by steps.
+/// half, fibers (or distant sections of one) closer than a blob, inside of each other, or across each other. Each kind
+/// is told once, and counted by steps.
 class ModelGuard {
  public:
   /// @param has_repulsion  something keeps fibers apart, if it is strong enough
@@ -29,14 +30,15 @@ class ModelGuard {
   void visit_memory(NumberVisitor& visitor);
 
  private:
-  enum Kind { sharp_hook, strained_spring, contact };
-  static constexpr int n_kinds = 3;
+  enum Kind { sharp_hook, strained_spring, contact, penetration, crossing };
+  static constexpr int n_kinds = 5;
 
   std::vector<double> spacing_;  ///< [n_fibers], length
   double blob_ = 0.0;            ///< the largest, length
   bool has_repulsion_;
   std::array<std::int64_t, n_kinds> n_steps_{};
-  std::array<double, n_kinds> worst_{};  ///< curvature times spacing; strain; gap / blob
+  std::array<double, n_kinds> worst_{};  ///< curvature times spacing; strain; gap / blob; depth / blob; count
+  std::int64_t most_inside_ = 0;         ///< nodes inside of surfaces in one step
 };
 
 }  // namespace skein

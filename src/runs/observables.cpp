@@ -24,7 +24,8 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
   return regimes;
 }
 
-StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report) {
+StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report,
+                            const std::vector<Vec3>& centreline) {
   StepRecord record;
   record.step = state.step;
   record.time = state.time;
@@ -33,7 +34,9 @@ StepRecord make_step_record(const Physics& physics, const State& state, const St
   record.spectral_radius = report.spectral_radius;
   record.energy = physics.compute_energies(state.time, state.position);
   record.smallest_gap = physics.sections.compute_smallest_gap(state.position);
-  const auto centreline = physics.sections.compute_centreline(state.position);
+  const Penetration penetration = physics.sections.compute_penetration(state.position);
+  record.nodes_inside = penetration.nodes;
+  record.depth = penetration.depth;
   for (const Fiber& fiber : physics.fibers) {
     const auto line = centreline_of(fiber, centreline);
     const auto curvature = compute_curvature(line);

@@ -16,7 +16,10 @@ Frame make_frame(const Physics& physics, std::int64_t step, double time, const C
 /// The regime of each fiber. @returns [n_fibers]
 std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame& frame);
 
-/// The small numbers of the step that led to `state`, but for the count of evaluations.
-StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report);
+/// The small numbers of the step that led to `state`, but for what is counted since the start of the run: evaluations,
+/// crossings.
+/// @param centreline  of the state, as compute_centreline gives it
+StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report,
+                            const std::vector<Vec3>& centreline);
 
 }  // namespace skein

@@ -6,10 +6,14 @@
 #include <skein/scene/scene_config.hpp>
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace skein {
+
+/// Of a radian
+inline constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// What the forces of one fiber do at one moment.
 struct ForceRecord {
@@ -24,9 +28,12 @@ struct RunAnalysis {
   SceneConfig scene;
   std::string status;
   std::vector<Fiber> fibers;
-  bool shares_energy = false;                    ///< forces between fibers pass it from one to the other
-  std::vector<double> time;                      ///< [n_frames]
-  std::vector<double> smallest_gap;              ///< [n_frames], length
+  bool shares_energy = false;        ///< forces between fibers pass it from one to the other
+  std::vector<double> time;          ///< [n_frames]
+  std::vector<double> smallest_gap;  ///< [n_frames], length
+  std::vector<int> nodes_inside;     ///< [n_frames], of another surface
+  std::vector<double> depth;         ///< [n_frames], of the deepest of them, length
+  std::vector<int> crossings;        ///< [n_frames], of centrelines since the first frame, as seen from frame to frame
   std::vector<FiberHistory> histories;           ///< [n_fibers]
   std::vector<std::vector<ForceRecord>> forces;  ///< [n_fibers][n_frames]; empty if they were not asked for
 };
@@ -38,7 +45,8 @@ RunAnalysis analyze_run(const RunFolder& folder, bool with_forces);
 
 /// Largest |E(t) - E(0) - integral of the elastic power|, by the trapezoidal rule over frames, over what the fluid
 /// dissipated: how well the powers of springs, flow and fluid add up. Of all fibers together where forces between
-/// them pass energy from one to the other. NaN without forces or without motion.
+/// them pass energy from one to the other. NaN without forces, and where the fluid takes no more
+/// than a fiber's rounding does.
 double measure_energy_defect(const RunAnalysis& analysis, int fiber);
 
 /// diagnostics.csv, a row for each frame and fiber, and diagnostics.h5, the same by fibers with curvature along the

@@ -1,5 +1,6 @@
 #include "runs/run_recorder.hpp"
 
+#include <skein/analysis/crossing.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/scene/frame_times.hpp>
 
@@ -7,6 +8,8 @@
 #include "runs/run_description.hpp"
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace skein {
 namespace {
@@ -41,10 +44,12 @@ RunRecorder::RunRecorder(const SceneConfig& scene, const RunFolder& folder, cons
 
 void RunRecorder::visit_memory(MemoryVisitor& visitor) {
   visitor.integer("run.next_frame", next_frame_);
+  visitor.integer("run.crossings", crossings_);
   guard_.visit_memory(visitor);
 }
 
 void RunRecorder::begin(const State& state) {
+  centreline_ = physics_.sections.compute_centreline(state.position);
   if (next_frame_ == 0) {
     write_frame(0, 0.0, state.position);
     next_frame_ = 1;
@@ -104,7 +109,11 @@ void RunRecorder::note_regimes(const Frame& frame) {
 }
 
 void RunRecorder::write_step_record(const State& state, const StepReport& report) {
-  StepRecord record = make_step_record(physics_, state, report);
+  std::vector<Vec3> centreline = physics_.sections.compute_centreline(state.position);
+  StepRecord record = make_step_record(physics_, state, report, centreline);
+  crossings_ += count_crossings(physics_.fibers, centreline_, centreline);
+  centreline_ = std::move(centreline);
+  record.crossings = crossings_;
   record.evaluations = ledger_.evaluations();
   record.estimated_error = ledger_.estimated_error();
   const ErrorRecord errors = physics_.mobility->error_record();

@@ -22,7 +22,7 @@ class RunRecorder {
   RunRecorder(const SceneConfig& scene, const RunFolder& folder, const Physics& physics, const TrajectoryEnd& start,
               RunLedger& ledger, RunMessages& messages);
 
-  /// The next frame's number, and what the guard has met.
+  /// The next frame's number, crossings so far, and what the guard has met.
   void visit_memory(MemoryVisitor& visitor);
 
   /// The first frame, or what the frame before says where a run goes on.
@@ -53,7 +53,9 @@ class RunRecorder {
   ModelGuard guard_;
   Vectors frame_position_;
   std::int64_t next_frame_ = 0;
-  std::vector<Regime> regimes_;  ///< [n_fibers], of the last frame
+  std::vector<Regime> regimes_;   ///< [n_fibers], of the last frame
+  std::vector<Vec3> centreline_;  ///< [n_sections], of the last step, length
+  std::int64_t crossings_ = 0;    ///< since the start of the run
 };
 
 }  // namespace skein

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,9 +88,10 @@ class PaperRun {
     const double end = half_period();
     if (!has(end)) return none;
     std::size_t n_at_rest = 0;
+    const std::vector<double> angles = history_->angles();
     for (std::size_t i = 0; i <= frame(end); ++i) {
       const Shape& shape = history_->shapes()[i];
-      n_at_rest += shape.distance > 0.99 * shape.length && std::abs(std::sin(shape.angle)) < std::sin(10.0 / degrees);
+      n_at_rest += shape.distance > 0.99 * shape.length && std::abs(std::sin(angles[i])) < std::sin(10.0 / degrees);
     }
     return static_cast<double>(n_at_rest) / static_cast<double>(frame(end) + 1);
   }
@@ -99,7 +99,6 @@ class PaperRun {
 
  private:
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();  ///< not reached
-  static constexpr double degrees = 180.0 / std::numbers::pi;
 
   const RunAnalysis* analysis_ = nullptr;
   const FiberHistory* history_ = nullptr;

@@ -51,6 +51,7 @@ def main():
     check([c["regime"] for c in fiber["changes"]] == ["tumble", "S", "tumble"], f"changes {fiber['changes']}")
     check(fiber["wave"] == "standing", f"its waves are {fiber['wave']}")
     check(fiber["hook_radius"] is None, "an S-turn has no hooks")
+    check(summary["nodes_inside"] == summary["crossings"] == 0 and summary["depth"] == 0.0, f"contact in {summary}")
     check(fiber["energy_defect"] < 2e-3, f"the power balance closes to {fiber['energy_defect']} only")
 
     with h5py.File(folder / "trajectory.h5") as run:
@@ -65,6 +66,12 @@ def main():
     angle = np.degrees(np.unwrap(-np.arctan2(ends[:, 1], ends[:, 0])))
     check(np.allclose(table["angle"], angle, atol=1e-9), "the angle is not that of the ends")
     check(np.allclose(table["distance"], np.linalg.norm(ends, axis=1), rtol=1e-12), "the distance is not that of the ends")
+    check(fiber["angle_from"] == "direction of the flow", f"angles count from the {fiber['angle_from']}")
+    height = np.abs(lines[:, :, 2] - lines[:, :, 2].mean(axis=1, keepdims=True)).max(axis=1)
+    check(np.allclose(table["out_of_flow_plane"], height, atol=1e-15), "the flow's plane is not that of z")
+    check((table["out_of_plane"] <= 1.01 * height + 1e-15).all(), "the fiber's own plane is not its best")
+    length = np.linalg.norm(np.diff(lines, axis=1), axis=2).sum(axis=1)
+    check(np.allclose(table["centreline_length"], length, rtol=1e-12), "the centreline's length")
     upright = np.interp(90.0, angle, times)
     check(abs(fiber["passages"][0]["time"] - upright) < 1e-6, f"upright at {fiber['passages'][0]}, not {upright}")
     on_steps = np.interp(times[1:], step_times, energy)
@@ -96,6 +103,7 @@ def main():
     elsewhere = folder / "elsewhere"
     shapes = skein(program, "analyze", folder, "--no-forces", "-o", elsewhere)
     check("regime S" in shapes and "energy" not in shapes, shapes)
+    check("no node inside of another surface; no centreline passed through another" in shapes, shapes)
     check("energy" not in read_table(elsewhere / "diagnostics.csv"), "forces were not asked for")
     skein(program, "analyze", folder / "nothing", code=66)
     print(f"check_analyze: {len(times)} frames, power balance {fiber['energy_defect']:.1e}")

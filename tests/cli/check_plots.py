@@ -56,7 +56,7 @@ def write_run(folder, n_frames=N_FRAMES, n_steps=400, status="done", out_of_plan
         "centreline": (lines, times),
         "curvature": (np.abs(lines[:, :, 1]) * 300.0, times),
         "energy": (np.stack([step_times, 2.0 * step_times], axis=1) * 1e-6, step_times),
-        "length": (np.full((n_steps, 2), (N_SECTIONS - 1) * SPACING), step_times),
+        "centreline_length": (np.full((n_steps, 2), (N_SECTIONS - 1) * SPACING), step_times),
         "end_to_end": (ends, step_times),
         "dt": (np.full(n_steps, 0.015), step_times),
         "evaluations": (np.arange(n_steps) * 12, step_times),
@@ -90,6 +90,7 @@ def write_analysis(folder, times, lines):
     n = len(times)
     with h5py.File(folder / "analysis/diagnostics.h5", "w") as file:
         file["time"] = times
+        file.attrs["angle_origins"] = "0 direction of the flow, 1 first direction, 2 axis of strain"
         for fiber in range(2):
             group = file.create_group(f"fiber_{fiber}")
             part = lines[:, fiber * N_SECTIONS : (fiber + 1) * N_SECTIONS]
@@ -99,6 +100,7 @@ def write_analysis(folder, times, lines):
             for i, name in enumerate(("energy", "background_power", "dissipation", "elastic_power",
                                       "viscosity_contribution", "out_of_plane", "symmetry_defect")):
                 group[name] = 1e-6 * (i + 1) * (1 + fiber) * np.exp(0.1 * times)
+            group["angle"], group["angle_origin"] = 30.0 * times, [0.0]  # as make_lines turns them
             track = np.zeros(n)
             group["track_points"] = np.concatenate([np.stack([track + 0, times, 0.02 + 0.01 * times, track + 5], axis=1),
                                                     np.stack([track + 1, times, track + 0.1, track - 5], axis=1)])
@@ -189,10 +191,22 @@ def check_options(script, folder):
     angle = (folder / "new/pictures/angle.svg").read_text()
     extrema = (folder / "new/pictures/extrema.svg").read_text()
     check(extrema.count(">0.01<") == 2, "extrema.svg: not the speed of each fiber's travelling extremum")
+    check("direction of the flow)" in angle, "angle.svg does not say what angles count from")
     check(">180<" in angle and ">\u221245<" not in angle, "angle.svg: the angle does not grow to 180 degrees")
     check(not (run / "plots").exists(), "pictures were also written into the run folder")
     check_fails(script, 64, "--times", run, "--times=1,x")
     check_fails(script, 64, "--format", run, "--format=gif")
+
+
+def check_flow_that_does_not_turn(script, folder):
+    """Angles from an axis of strain have no passages through quarter turns, and say what they count from."""
+    run = write_run(folder / "strained", out_of_plane=3.0)
+    with h5py.File(run / "analysis/diagnostics.h5", "r+") as file:
+        for fiber in range(2):
+            file[f"fiber_{fiber}/angle_origin"][0] = 2.0
+    check(plot(script, run, "--format", "svg").returncode == 0, "a flow without vorticity is not drawn")
+    angle = (run / "plots/angle.svg").read_text()
+    check("axis of strain)" in angle and "clockwise" not in angle, "angle.svg: angles from an axis of strain")
 
 
 def check_poor_runs(script, folder):
@@ -306,8 +320,8 @@ def check_tangle(script, folder):
 
 def main():
     script = sys.argv[1]
-    for part in (check_complete_run, check_planted_links, check_options, check_poor_runs, check_analysis_is_of_the_run,
-                 check_errors, check_tangle):
+    for part in (check_complete_run, check_planted_links, check_options, check_flow_that_does_not_turn, check_poor_runs,
+                 check_analysis_is_of_the_run, check_errors, check_tangle):
         with tempfile.TemporaryDirectory() as folder:
             part(script, pathlib.Path(folder))
     check_messages()

@@ -15,10 +15,11 @@ import numpy as np
 
 QUAD = 9  # VTK's number for a quadrilateral
 NO_DIMENSION = {"/observables/error/value", "/observables/evaluations/value", "/observables/symmetry_defect/value",
-                "/observables/velocity_error/value", "/observables/fmm_order/value", "/observables/fmm_misses/value",
+                "/observables/nodes_inside/value", "/observables/crossings/value", "/observables/velocity_error/value", "/observables/fmm_order/value", "/observables/fmm_misses/value",
                 "/parameters/elasto_viscous_number"}
-PER_FIBER = ("energy", "length", "curvature_max", "symmetry_defect", "out_of_plane", "end_to_end")
-PER_STEP = ("smallest_gap", "dt", "error", "estimated_error", "spectral_radius", "evaluations", "velocity_error", "fmm_order", "fmm_misses")
+PER_FIBER = ("energy", "centreline_length", "curvature_max", "symmetry_defect", "out_of_plane", "end_to_end")
+PER_STEP = ("smallest_gap", "nodes_inside", "depth", "crossings", "dt", "error", "estimated_error", "spectral_radius",
+            "evaluations", "velocity_error", "fmm_order", "fmm_misses")
 
 
 def check(condition, message):

@@ -37,7 +37,7 @@ class Signals(InFreshFolder):
         process = subprocess.Popen([PROGRAM, "run", "long.toml", "-o", "run"], cwd=self.folder, stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=before, env=ONE_THREAD)
         self.addCleanup(process.kill)
-        while not (self.folder / "run/trajectory.xdmf").exists() and process.poll() is None:
+        while not (self.folder / "run/trajectory.h5").exists() and process.poll() is None:
             time.sleep(0.01)
         return process
 

@@ -1,6 +1,7 @@
 // The comparison with a paper: verdicts, and its table for runs that are made up.
 #include <skein/fibers/calibration.hpp>
 
+#include "known_flows.hpp"
 #include "studies/acceptance.hpp"
 #include "studies/lagrone2019.hpp"
 #include "studies/paper_scenes.hpp"
@@ -85,7 +86,7 @@ RunAnalysis make_rigid_run(const double half_period, const double end) {
   analysis.scene = make_paper_scene(80, end);
   analysis.fibers = make_fibers(analysis.scene.fibers);
   const Fiber& fiber = analysis.fibers[0];
-  analysis.histories.emplace_back(fiber, 0.4);
+  analysis.histories.emplace_back(fiber, make_flow_frame(shear_gradient), 0.4);
   const double sum = 2.5 * half_period / std::numbers::pi;  // r + 1/r
   const double ratio = 0.5 * (sum + std::sqrt(sum * sum - 4.0));
   for (int i = 0; 0.05 * i <= end; ++i) {

@@ -16,6 +16,7 @@ namespace skein {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+constexpr Vec3 z_axis{0.0, 0.0, 1.0};
 
 TEST(LineFit, RecoversALineAndSaysHowMuchItExplains) {
   const std::vector<double> x{1.0, 2.5, 3.0, 7.0}, y{0.2 - 3.0, 0.2 - 7.5, 0.2 - 9.0, 0.2 - 21.0};
@@ -91,11 +92,11 @@ TEST(CircleFit, ALineHasAnInfiniteRadius) {
 
 TEST(SignedCurvature, IsPositiveCounterClockwise) {
   const auto line = make_plane_curve(60, 0.01, [](const double s) { return s < 0.3 ? 5.0 * s : 3.0 - 5.0 * s; });
-  const auto curvature = compute_signed_curvature(line, 2);
+  const auto curvature = compute_signed_curvature(line, 2, z_axis);
   EXPECT_NEAR(curvature[10], 5.0, 1e-2);
   EXPECT_NEAR(curvature[50], -5.0, 1e-2);
   EXPECT_EQ(curvature.front(), curvature[1]);
-  const auto from_below = compute_signed_curvature(line, 2, {0.0, 0.0, -1.0});
+  const auto from_below = compute_signed_curvature(line, 2, -z_axis);
   EXPECT_EQ(from_below[10], -curvature[10]);
 }
 
@@ -119,7 +120,7 @@ TEST(Bends, TurnByTheAngleOfTheirTangents) {
       201, 0.005, [](const double s) { return s < 0.4 ? pi * s / 0.4 : pi - 2.0 * pi / 3.0 * (s - 0.4) / 0.6; });
   const auto arclength = compute_arclength(line);
   EXPECT_NEAR(arclength.back(), 1.0, 1e-3);
-  const auto curvature = compute_signed_curvature(line, 1);
+  const auto curvature = compute_signed_curvature(line, 1, z_axis);
   const auto bends = find_bends(arclength, curvature, 0.1);
   ASSERT_EQ(bends.size(), 2u);
   EXPECT_NEAR(bends[0].turning, pi, 0.03);
@@ -136,7 +137,7 @@ TEST(Hook, IsTheSemicircleAtAnEnd) {
   const auto line = make_plane_curve(
       400, 0.001, [&](const double s) { return pi - std::min(std::max(s - 0.03, 0.0), pi * radius) / radius; });
   const auto arclength = compute_arclength(line);
-  const auto curvature = compute_signed_curvature(line, 2);
+  const auto curvature = compute_signed_curvature(line, 2, z_axis);
   const auto hook = find_hook(line, arclength, curvature, FiberEnd::first);
   ASSERT_TRUE(hook.has_value());
   EXPECT_NEAR(hook->circle.radius, radius, 1e-3 * radius);

@@ -56,6 +56,8 @@ TEST(Stresslet, OfASphereGivesEinsteinsViscosity) {
   const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(radius, 3);
   EXPECT_NEAR(compute_viscosity_contribution(stresslet, strain, viscosity), 2.5 * volume, 1e-3 * volume);
   EXPECT_TRUE(std::isnan(compute_viscosity_contribution(stresslet, Matrix3{}, viscosity)));
+  const Matrix3 rotation{{{1e-17, -0.7, 0.3}, {0.7, 0.0, -0.2}, {-0.3, 0.2, 0.0}}};
+  EXPECT_TRUE(std::isnan(compute_viscosity_contribution(stresslet, rotation, viscosity)));
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ Launches count_step(const int n_fibers) {
   const Counting counting;
   const StepReport report = integrator->advance(state, 1.0);
   EXPECT_EQ(report.stages, 2);
-  make_step_record(physics, state, report);
+  make_step_record(physics, state, report, physics.sections.compute_centreline(state.position));
   make_frame(physics, state.step, state.time, state.position);
   return counted;
 }

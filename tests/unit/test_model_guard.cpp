@@ -40,7 +40,7 @@ TEST(ModelGuard, TellsEachKindOnceWithItsNumbersAndCountsSteps) {
             std::string::npos)
       << news[0];
   EXPECT_NE(news[1].find("62 %"), std::string::npos) << news[1];
-  EXPECT_NE(news[2].find("0.0039 apart, less than a blob, 0.004: nothing keeps"), std::string::npos) << news[2];
+  EXPECT_NE(news[2].find("0.0039 apart, less than a blob, 0.004: only the fluid"), std::string::npos) << news[2];
   ModelGuard with_repulsion(fibers, true);
   const auto weak = with_repulsion.look(make_record(0.0039, 0.0, 0.0), 0.0);
   ASSERT_EQ(weak.size(), 1u);
@@ -48,9 +48,36 @@ TEST(ModelGuard, TellsEachKindOnceWithItsNumbersAndCountsSteps) {
 
   EXPECT_TRUE(guard.look(make_record(-0.002, 0.0, 2.0 / fibers[1].spacing()), 0.71).empty());
   EXPECT_TRUE(guard.look(make_record(0.001, 0.0, 0.0), 0.3).empty());
-  EXPECT_EQ(guard.describe(),
-            "beyond what the model resolves: 2 steps with bends down to 0.5 of the sections' distance; 2 steps with "
-            "springs strained by up to 71 %; 3 steps with gaps down to -0.5 blobs");
+  EXPECT_EQ(
+      guard.describe(),
+      "beyond what the model resolves: 2 steps with bends down to 0.5 of the sections' distance; 2 steps with "
+      "springs strained by up to 71 %; 3 steps with gaps down to -0.5 blobs; no centreline passed through another");
+}
+
+TEST(ModelGuard, TellsOfNodesInsideAndOfCentrelinesThatCross) {
+  ModelGuard guard(make_two_fibers());
+  StepRecord record = make_record(-0.001, 0.0, 0.0);
+  record.nodes_inside = 3;
+  record.depth = 0.0012;
+  auto news = guard.look(record, 0.0);
+  ASSERT_EQ(news.size(), 2u);
+  EXPECT_NE(news[1].find("3 nodes are inside of another surface, the deepest by 0.0012; the blob is 0.004"),
+            std::string::npos)
+      << news[1];
+  record.nodes_inside = 7;
+  record.depth = 0.0008;
+  record.crossings = 1;
+  news = guard.look(record, 0.0);
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_NE(news[0].find("centrelines have passed through each other"), std::string::npos) << news[0];
+  EXPECT_TRUE(guard.look(record, 0.0).empty());
+  record.crossings = 4;
+  EXPECT_TRUE(guard.look(record, 0.0).empty());
+  EXPECT_EQ(
+      guard.describe(),
+      "beyond what the model resolves: 4 steps with gaps down to -0.25 blobs; 4 steps with nodes inside of another "
+      "surface, up to 7 of them, 0.3 blobs deep; 2 steps with centrelines that pass through each other, 4 times in "
+      "all");
 }
 
 TEST(SpringForces, LargestStrainIsThatOfTheMostStrainedSpring) {

@@ -2,6 +2,7 @@
 #include <skein/analysis/fiber_history.hpp>
 
 #include "known_curves.hpp"
+#include "known_flows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,7 +56,8 @@ TEST(Shape, MeasuresWhatIsKnown) {
   const double circle = length / (0.5 * pi);
   EXPECT_NEAR(shape.length, length, 1e-4 * length);
   EXPECT_NEAR(shape.distance, std::sqrt(2.0) * circle, 1e-4 * length);
-  EXPECT_NEAR(shape.angle, -0.25 * pi, 1e-4);
+  EXPECT_NEAR(compute_clockwise_angle(shape.end_to_end, make_flow_frame(shear_gradient)), -0.25 * pi, 1e-4);
+  EXPECT_NEAR(std::abs(shape.normal.z), 1.0, 1e-12);
   EXPECT_NEAR(shape.curvature_max, 1.0 / circle, 1e-3 / circle);
   EXPECT_NEAR(shape.total_turning, 0.5 * pi, 1e-2);
   ASSERT_EQ(shape.bends.size(), 1u);
@@ -73,17 +75,37 @@ TEST(Shape, SymmetryDefectIsTheEvenPart) {
     line.push_back({2.0 * t, a * 4.0 * t * t + 0.3 * a * t, 0.0});
   }
   EXPECT_NEAR(compute_symmetry_defect(line), a * std::sqrt(1.0 / 5.0 - 1.0 / 9.0) / 2.0, 1e-3 * a);
-  for (Vec3& point : line) point.z = 7.0 + 0.25 * point.x * point.x;
-  EXPECT_NEAR(compute_out_of_plane(line), 0.25 * (1.0 - 1.0 / 3.0), 1e-3);
+}
+
+// Of the best plane, wherever it lies: a parabola is plane, a cubic across it is not.
+TEST(Shape, OutOfPlaneIsMeasuredFromTheOwnPlane) {
+  std::vector<Vec3> parabola, twisted;
+  double largest = 0.0;
+  constexpr int n = 2001;
+  for (int s = 0; s < n; ++s) {
+    const double t = 2.0 * s / (n - 1.0) - 1.0, cubic = 1e-3 * (t * t * t - 0.6 * t);  // at right angles to 1, t, t^2
+    parabola.push_back({t, 0.2 * t, 7.0 + 0.25 * t * t});
+    twisted.push_back({t, 0.25 * t * t, cubic});
+    largest = std::max(largest, std::abs(cubic));
+  }
+  EXPECT_LT(compute_out_of_plane(parabola), 1e-14);
+  EXPECT_NEAR(compute_out_of_plane(twisted), largest, 0.01 * largest);
+}
+
+TEST(Regime, AStraightFiberTiltedOutOfThePlaneOfTheFlowIsStraight) {
+  auto line = make_curve([](double) { return 0.4; });
+  for (Vec3& point : line) point.z += 0.3 * point.x;
+  EXPECT_EQ(regime_of(line), Regime::tumble);
 }
 
 TEST(Orientation, AnglesAreClockwiseAndUnwrapped) {
-  EXPECT_DOUBLE_EQ(compute_clockwise_angle({1.0, -1.0, 0.3}), 0.25 * pi);
+  const FlowFrame shear = make_flow_frame(shear_gradient);
+  EXPECT_DOUBLE_EQ(compute_clockwise_angle({1.0, -1.0, 0.3}, shear), 0.25 * pi);
   std::vector<double> time, wrapped;
   for (int i = 0; i <= 400; ++i) {
     const double angle = 0.31 + 0.05 * i;
     time.push_back(0.1 * i);
-    wrapped.push_back(compute_clockwise_angle({std::cos(angle), -std::sin(angle), 0.0}));
+    wrapped.push_back(compute_clockwise_angle({std::cos(angle), -std::sin(angle), 0.0}, shear));
   }
   const auto angle = unwrap_angles(wrapped);
   EXPECT_NEAR(angle.back(), 20.31, 1e-12);
@@ -129,7 +151,7 @@ TEST(FiberHistory, RecognizesASnakeTurn) {
   config.sections = n_sections;
   config.nodes_per_section = 16;
   config.radius = radius;
-  FiberHistory history(make_fibers({config})[0], 0.4);
+  FiberHistory history(make_fibers({config})[0], make_flow_frame(shear_gradient), 0.4);
   const double speed = 0.035;
   for (int i = 0; i <= 80; ++i) {
     const double time = 0.05 * i, place = 0.03 + speed * std::max(time - 1.0, 0.0);
@@ -160,7 +182,7 @@ TEST(FiberHistory, MeasuresSnakingOverTheSameStretchInAnyUnitOfTime) {
   config.radius = radius;
   std::vector<Snaking> found;
   for (const double unit : {1.0, 0x1p20, 0x1p-20}) {
-    FiberHistory history(make_fibers({config})[0], 0.4 * unit);
+    FiberHistory history(make_fibers({config})[0], make_flow_frame(shear_gradient), 0.4 * unit);
     for (int i = 0; i <= 80; ++i) {
       const double time = 0.05 * i;
       history.add(unit * time,
@@ -183,7 +205,7 @@ TEST(FiberHistory, MeasuresHowFastABendGrows) {
   config.nodes_per_section = 16;
   config.radius = radius;
   const Fiber fiber = make_fibers({config})[0];
-  FiberHistory history(fiber, 0.4);
+  FiberHistory history(fiber, make_flow_frame(compression_gradient), 0.4);
   const double fiber_length = fiber.length(), rate = 1.7, amplitude = 1e-4 * fiber_length;
   for (int i = 0; i <= 100; ++i) {
     const double time = 0.05 * i;
@@ -210,7 +232,7 @@ TEST(FiberHistory, MeasuresHowFastABendGrows) {
 TEST(FiberHistory, NoGrowthOfAStraightFiber) {
   FiberConfig config;
   config.sections = n_sections;
-  FiberHistory history(make_fibers({config})[0], 0.4);
+  FiberHistory history(make_fibers({config})[0], make_flow_frame(shear_gradient), 0.4);
   for (int i = 0; i < 20; ++i) history.add(0.1 * i, make_curve([](double) { return 0.0; }));
   EXPECT_EQ(history.summarize().deflection_growth.n_points, 0);
 }

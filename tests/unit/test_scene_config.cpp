@@ -3,6 +3,8 @@
 #include <skein/scene/scene_reference.hpp>
 #include <skein/scene/words.hpp>
 
+#include "tests/support/nan_trap.hpp"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -241,6 +243,7 @@ TEST(SceneFile, AProfileIsPairsInOrder) {
   const std::string key = "[fiber]\nstiffness_profile = ";
   EXPECT_EQ(read(key + "[[0, 1], [0.5, 0.25], [1, 2.5]]\n").fibers[0].stiffness_profile,
             (std::vector<ProfilePoint>{{0.0, 1.0}, {0.5, 0.25}, {1.0, 2.5}}));
+  const test::MeantNan one_value_is_none;
   for (const char* wrong : {"[[0, 1]]", "[[0, 1], [1]]", "[[0, 1], 2]", "[[0, 1], [1, nan]]", "[[0, 1], [1, -1]]",
                             "[[0.5, 1], [0.5, 1]]", "[[0, 1], [1.5, 1]]", "[[0, 1], [1, 0]]", "1.0"})
     EXPECT_EQ(problems_of(key + wrong + "\n").size(), 1u) << wrong;

@@ -3,15 +3,18 @@
 import numpy as np
 
 import style
+from diagnostics import open_diagnostics, read_words
 from run_reader import Nothing
 
 MAX_FIBERS = 6
+LABORATORY = "$+x$"  # what angles count from where the run is not analyzed
+TURNING = (0, 1)  # codes of angle_origin in flows with vorticity
 
 
 def read_end_to_end(run, n_fibers):
     """Times, vectors [n, n_fibers, 3], and the lengths [n, n_fibers] to compare them with."""
     if run.n_steps > 1:
-        return run.step_times, run.steps("end_to_end", n_fibers), run.steps("length", n_fibers)
+        return run.step_times, run.steps("end_to_end", n_fibers), run.steps("centreline_length", n_fibers)
     if len(run.frame_times) < 2:
         raise Nothing("the run holds one moment only")
     # Without records of steps, frames still tell the ends.
@@ -23,8 +26,23 @@ def read_end_to_end(run, n_fibers):
     return run.frame_times[::stride], vectors, lengths
 
 
+def measured_angles(run, n_fibers):
+    """Times, degrees [n_fibers][n] as `skein analyze` measures them, whether the flow turns the fibers, and from what
+    the angles count."""
+    with open_diagnostics(run) as file:
+        groups = [file[f"fiber_{f}"] for f in range(n_fibers)]
+        if not all("angle_origin" in group for group in groups):
+            raise Nothing("the tables of 'skein analyze' are of an older version")
+        origins = {int(group["angle_origin"][0]) for group in groups}
+        words = read_words(file, "angle_origins")
+        counts_from = words[origins.pop()] if len(origins) == 1 else "direction that the flow has there"
+        turning = all(int(group["angle_origin"][0]) in TURNING for group in groups)
+        return run.frame_times, [group["angle"][()] for group in groups], turning, counts_from
+
+
 def clockwise_angle(vectors):
-    """Degrees clockwise from +x in the x-y plane, without jumps. Moments that are not finite stay so."""
+    """Degrees clockwise from +x in the x-y plane, without jumps: for a run that is not analyzed. Moments that are not
+    finite stay so."""
     angle = -np.arctan2(vectors[:, 1], vectors[:, 0])
     finite = np.isfinite(angle)
     angle[finite] = np.unwrap(angle[finite])
@@ -67,13 +85,18 @@ def mark_passages(panel, passages, with_times, last_time):
 def draw(run, options):
     shown = min(run.n_fibers, MAX_FIBERS)
     times, vectors, lengths = read_end_to_end(run, shown)
+    try:
+        angle_times, angles, turning, counts_from = measured_angles(run, shown)
+    except Nothing:
+        angle_times, angles = times, [clockwise_angle(vectors[:, fiber]) for fiber in range(shown)]
+        turning, counts_from = True, LABORATORY
     figure, (top, bottom) = style.make_panels(run, 2, 5.0)
     lowest, highest = 0.0, 0.0
     for fiber in range(shown):
-        angle = clockwise_angle(vectors[:, fiber])
-        style.plot_series(top, times, angle, label=str(fiber), color=style.COLOURS[fiber])
-        passages = first_passages(times, angle)
-        mark_passages(top, passages, shown == 1 and len(passages) <= 12, times[-1])
+        angle = angles[fiber]
+        style.plot_series(top, angle_times, angle, label=str(fiber), color=style.COLOURS[fiber])
+        passages = first_passages(angle_times, angle) if turning else []
+        mark_passages(top, passages, shown == 1 and len(passages) <= 12, angle_times[-1])
         distance = np.linalg.norm(vectors[:, fiber], axis=1) / lengths[:, fiber]
         style.plot_series(bottom, times, distance, color=style.COLOURS[fiber])
         if np.isfinite(angle).any():
@@ -83,7 +106,9 @@ def draw(run, options):
     if turned > 60.0:
         top.set_yticks(np.arange(step * np.floor(lowest / step), highest + 0.5 * step, step))
     top.margins(y=0.12)  # room for the words beside the highest mark
-    top.set_ylabel("end-to-end angle in $x$-$y$\n(degrees clockwise from $+x$)")
+    sense = "degrees clockwise" if turning else "degrees"
+    top.set_ylabel(f"end-to-end angle\n({sense} from the\n{counts_from})" if counts_from != LABORATORY else
+                   f"end-to-end angle in $x$-$y$\n({sense} from {counts_from})")
     bottom.set_ylabel("end-to-end distance\n/ centreline length")
     low, high = bottom.get_ylim()
     low = min(low, 0.995)  # a rigid fiber gives a flat line, not rounding errors

@@ -26,6 +26,13 @@ def open_diagnostics(run):
     return file
 
 
+def read_words(file, attribute):
+    """{code: words} of an attribute such as "0 standing, 1 travelling"."""
+    text = file.attrs[attribute]
+    text = text.decode() if isinstance(text, bytes) else str(text)
+    return {int(code): word for code, word in (entry.split(" ", 1) for entry in text.split(", "))}
+
+
 def split_tracks(fiber):
     """[(times, arclengths, fit row)] of the tracked extrema of curvature."""
     points, fits = fiber["track_points"][()], fiber["tracks"][()]

@@ -68,7 +68,7 @@ class Run:
         """[n_fibers], at rest; as measured in the first step where the run does not say."""
         if "fiber_length" in self.file["/parameters"]:
             return np.atleast_1d(self.parameter("fiber_length")).astype(float)
-        return self.steps("length")[0] if self.n_steps else np.full(self.n_fibers, np.nan)
+        return self.steps("centreline_length")[0] if self.n_steps else np.full(self.n_fibers, np.nan)
 
     @property
     def n_steps(self):

@@ -34,7 +34,8 @@ PowerBalance compute_power_balance(std::span<const Vec3> force, std::span<const 
 Matrix3 compute_stresslet(const SymmetricTensor& moment);
 
 /// (viscosity - fluid's) / (fluid's * fibers per volume): S:E / (2 mu E:E), length^3; NaN where nothing is strained.
-/// @param strain_rate  E, symmetric, of the background flow, 1 / time
-double compute_viscosity_contribution(const Matrix3& stresslet, const Matrix3& strain_rate, double viscosity);
+/// E is the symmetric part of the background flow's gradient.
+/// @param gradient  G_ij = d u_i / d x_j, 1 / time
+double compute_viscosity_contribution(const Matrix3& stresslet, const Matrix3& gradient, double viscosity);
 
 }  // namespace skein

@@ -15,7 +15,7 @@ enum class Regime {
   s_shape,            ///< buckled with bends of opposite sense
   snake,              ///< an end folded back, in a U that moves along the fiber
   coil,               ///< more turning than two hooks have
-  three_dimensional,  ///< out of the plane by more than a radius
+  three_dimensional,  ///< in no plane: out of its own by more than a radius
 };
 const char* name_of(Regime regime);
 

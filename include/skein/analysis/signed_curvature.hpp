@@ -18,7 +18,7 @@ int choose_curvature_reach(const Fiber& fiber);
 /// Curvature of compute_curvature with a sign: positive where the line turns counter-clockwise about `normal`, going
 /// from the first section to the last.
 /// @returns [n_sections], 1 / length
-std::vector<double> compute_signed_curvature(std::span<const Vec3> centreline, int reach, Vec3 normal = {0, 0, 1});
+std::vector<double> compute_signed_curvature(std::span<const Vec3> centreline, int reach, Vec3 normal);
 
 /// A part of the line that turns one way.
 struct Bend {

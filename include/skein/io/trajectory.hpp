@@ -34,11 +34,14 @@ struct StepRecord {
   int fmm_order = 0;                                                 ///< of the last evaluation; 0: summed directly
   std::int64_t fmm_misses = 0;          ///< checks that found more than the tolerance, since the start of the run
   double smallest_gap = 0.0;            ///< between surfaces of distant sections, length
+  std::int64_t nodes_inside = 0;        ///< of the surface of another fiber, or of a distant part of their own
+  double depth = 0.0;                   ///< of the deepest of them: its distance to that surface, length
+  std::int64_t crossings = 0;           ///< of centrelines, since the start of the run; see count_crossings
   std::vector<double> energy;           ///< [n_fibers], elastic
   std::vector<double> length;           ///< [n_fibers], of the centreline
   std::vector<double> curvature_max;    ///< [n_fibers], 1 / length
   std::vector<double> symmetry_defect;  ///< [n_fibers], departure from odd symmetry over length
-  std::vector<double> out_of_plane;     ///< [n_fibers], largest distance from the plane z = centroid's, length
+  std::vector<double> out_of_plane;     ///< [n_fibers], largest distance from the fiber's own plane, length
   std::vector<Vec3> end_to_end;         ///< [n_fibers], last section centroid - first, length
 };
 

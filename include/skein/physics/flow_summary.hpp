@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/physics/velocity_gradient.hpp>
 #include <skein/scene/scene_config.hpp>
 
 #include <string>
@@ -16,5 +17,8 @@ struct FlowSummary {
 
 /// @throws Error(scene_error) for a kind that is not known
 FlowSummary summarize_flow(const std::vector<FlowConfig>& flows);
+
+/// The velocity gradient at one position as if all flows were at their full rates: what directions the flow has there.
+VelocityGradient compute_typical_gradient(const std::vector<FlowConfig>& flows, Vec3 position);
 
 }  // namespace skein

@@ -1,0 +1,48 @@
+#include "runs/force_probe.hpp"
+
+#include <skein/arrays/combination.hpp>
+
+#include <span>
+
+namespace skein {
+
+std::vector<ForceRecord> probe_forces(const Physics& physics, const Frame& frame) {
+  const auto position = to_device("skein::probe_forces::position", frame.position);
+  const std::size_t n = frame.position.size();
+  const Vectors force("skein::probe_forces::force", n), induced("skein::probe_forces::induced", n),
+      background("skein::probe_forces::background", n), velocity("skein::probe_forces::velocity", n);
+  physics.compute_forces(frame.time, position, force);
+  physics.mobility->add_velocity({position, force, physics.blob}, position, induced);
+  physics.flow->add_velocity(frame.time, position, background);
+  combine<ExecSpace>(ExecSpace(), velocity, {1.0, induced}, {1.0, background});
+  const std::vector<Fiber>& fibers = physics.fibers;
+  const auto energy = physics.compute_energies(frame.time, position);
+  std::vector<SymmetricTensor> moments(fibers.size());
+  std::vector<double> drive(fibers.size());
+  for (const auto& part : physics.forces) {
+    part->add_moments(fibers, frame.time, position, moments);
+    part->add_drive_powers(frame.time, position, velocity, drive);
+  }
+  const auto f = to_host(ConstVectors(force)), u = to_host(ConstVectors(induced)),
+             b = to_host(ConstVectors(background));
+  std::vector<ForceRecord> records;
+  for (std::size_t i = 0; i < fibers.size(); ++i) {
+    const Fiber& fiber = fibers[i];
+    const auto part = [&](const std::vector<Vec3>& all) {
+      return std::span(all).subspan(fiber.first_node, fiber.n_nodes());
+    };
+    Vec3 middle;
+    for (const Vec3 x : part(frame.position)) middle = middle + x / fiber.n_nodes();
+    ForceRecord record;
+    record.energy = energy[i];
+    record.power = compute_power_balance(part(f), part(u), part(b));
+    record.power.drive = drive[i];
+    record.stresslet = compute_stresslet(moments[i]);
+    record.viscosity_contribution =
+        compute_viscosity_contribution(record.stresslet, physics.flow->gradient(frame.time, middle), physics.viscosity);
+    records.push_back(record);
+  }
+  return records;
+}
+
+}  // namespace skein
