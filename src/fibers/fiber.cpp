@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/start_shape.hpp>
+#include <skein/scene/fiber_spacing.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@ void append_section_nodes(const FiberConfig& config, const SectionPose& section,
   }
 }
 
-double Fiber::spacing() const { return 2.0 * config.radius * std::sin(std::numbers::pi / config.nodes_per_section); }
+double Fiber::spacing() const { return compute_section_spacing(config); }
 
 double Fiber::length() const { return config.sections * spacing(); }
 

@@ -1,3 +1,4 @@
+#include <skein/scene/fiber_spacing.hpp>
 #include <skein/scene/scene_size.hpp>
 
 #include "scene_checks.hpp"
@@ -35,7 +36,7 @@ void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::v
   }
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
     const FiberConfig& fiber = scene.fibers[i];
-    const double spacing = compute_node_spacing(fiber);
+    const double spacing = compute_section_spacing(fiber);
     const double half_width = std::sqrt(4.0 * fiber.radius * (range > 0.0 ? range : thinnest));
     if (half_width >= spacing) continue;
     reader.add(

@@ -68,10 +68,12 @@ void visit_springs(KeyVisitor& visitor, FiberConfig& fiber) {
 void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
   visitor.integer({"sections", "", between(2, 1e9), "number of circular cross-sections along the fiber"},
                   fiber.sections);
-  visitor.integer({"nodes_per_section", "", between(3, 1000),
-                   "number of nodes on a cross-section; sections lie as far apart as neighbouring nodes of one"},
+  visitor.integer({"nodes_per_section", "", between(3, 1000), "number of nodes on a cross-section"},
                   fiber.nodes_per_section);
   visitor.number({"radius", "length", above_zero(), "radius of the cross-sections"}, fiber.radius);
+  visitor.number(
+      {"spacing", "length", zero_or_more(), "distance of sections; 0: as far apart as neighbouring nodes of one"},
+      fiber.spacing);
   visitor.number({"spring_stiffness", "force", above_zero(), "force of a spring stretched to twice its rest length"},
                  fiber.spring_stiffness);
   visitor.number({"blob", "length", above_zero(),

@@ -1,6 +1,7 @@
 #include "scene_checks.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/scene/fiber_spacing.hpp>
 #include <skein/scene/scene_size.hpp>
 
 #include "scene_numbers.hpp"
@@ -27,7 +28,7 @@ void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneR
   if (!(norm(fiber.direction) >= smallest_direction)) {
     reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
   }
-  const double spacing = compute_node_spacing(fiber);
+  const double spacing = std::max(compute_node_spacing(fiber), compute_section_spacing(fiber));
   if (fiber.blob > fiber.radius) {
     reader.add(warnings, path + ".blob",
                fmt::format("{}.blob {} is above the radius {}: the fiber is too thick in the fluid", path,

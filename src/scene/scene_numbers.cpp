@@ -5,13 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace skein {
-
-double compute_node_spacing(const FiberConfig& fiber) {
-  return 2.0 * fiber.radius * std::sin(std::numbers::pi / fiber.nodes_per_section);
-}
 
 double count_fibers(const SceneConfig& scene) {
   const PlacementConfig& placement = scene.placement;

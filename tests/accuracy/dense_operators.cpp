@@ -27,7 +27,8 @@ Eigen::Matrix3d stiffness_block(const FiberConfig& config, const Points& points,
 }  // namespace
 
 Points make_straight_tube(const FiberConfig& config) {
-  const double spacing = 2.0 * config.radius * std::sin(EIGEN_PI / config.nodes_per_section);
+  const double chord = 2.0 * config.radius * std::sin(EIGEN_PI / config.nodes_per_section);
+  const double spacing = config.spacing > 0.0 ? config.spacing : chord;
   Points points;
   for (int s = 0; s < config.sections; ++s)
     for (int a = 0; a < config.nodes_per_section; ++a) {

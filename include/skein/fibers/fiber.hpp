@@ -20,7 +20,8 @@ struct Fiber {
   int index = 0;  ///< of the fiber among all
 
   int n_nodes() const { return config.sections * config.nodes_per_section; }
-  double spacing() const;  ///< between sections: the chord 2 R sin(pi / N_c) between neighbours on a section, length
+  /// Between sections, length: the chord 2 R sin(pi / N_c) between neighbours on a section unless the scene says other.
+  double spacing() const;
   double length() const;   ///< N_f * spacing, length
   /// Sections whose numbers differ by this much or more are distant from each other.
   int distant_sections() const;

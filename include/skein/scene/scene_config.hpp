@@ -51,6 +51,7 @@ struct FiberConfig {
   int sections = 80;                 ///< N_f, >= 2
   int nodes_per_section = 18;        ///< N_c, >= 3
   double radius = 0.005;             ///< R, length
+  double spacing = 0.0;              ///< ds between sections, length; 0: the chord between neighbours on a section
   double spring_stiffness = 0.0112;  ///< k, force
   double blob = 0.00225;             ///< regularization length eps of this fiber's nodes
   Vec3 center{0.0, 0.0, 0.0};        ///< length
