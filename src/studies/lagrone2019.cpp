@@ -6,6 +6,7 @@
 
 #include "studies/paper_run.hpp"
 #include "studies/paper_scenes.hpp"
+#include "studies/rung.hpp"
 
 #include <fmt/format.h>
 
@@ -235,8 +236,8 @@ std::vector<AcceptanceRow> compare_figure8(const PaperRuns& /*runs*/, const std:
 }  // namespace
 
 SceneConfig make_run_scene(const PaperFiber& fiber, const int nodes_per_section) {
-  SceneConfig scene = coarsen(make_paper_scene(fiber.sections, fiber.end),
-                              nodes_per_section == 0 ? fiber.nodes_per_section : nodes_per_section);
+  SceneConfig scene = make_rung_scene(make_paper_scene(fiber.sections, fiber.end),
+                                      nodes_per_section == 0 ? fiber.nodes_per_section : nodes_per_section);
   scene.fibers[0].start_noise = fiber.start_noise;
   if (fiber.start_noise > 0.0) {
     // The noise is to decide when the fiber leaves its plane. Direct sums in double keep the scene's mirror and half

@@ -13,8 +13,4 @@ constexpr double paper_radius = 0.005;
 /// @param sections  N_f; the length is N_f 0.00173648
 SceneConfig make_paper_scene(int sections, double end);
 
-/// The same fibers with fewer nodes on a section: length, radius and bending rigidity kept, and by a larger blob what
-/// the tube is to the fluid; sections as far apart as neighbours on a section. @param nodes_per_section  at least 3
-SceneConfig coarsen(SceneConfig scene, int nodes_per_section);
-
 }  // namespace skein

@@ -1,5 +1,4 @@
 // The comparison with a paper: verdicts, and its table for runs that are made up.
-#include <skein/fibers/calibration.hpp>
 
 #include "known_flows.hpp"
 #include "studies/acceptance.hpp"
@@ -43,22 +42,6 @@ TEST(Acceptance, TheTableIsAlignedAndCounted) {
   EXPECT_EQ(worst({agrees, AcceptanceRow{}}), Verdict::not_reached);
   EXPECT_EQ(worst({agrees}), Verdict::agrees);
   EXPECT_NE(describe_rows_as_json({differs}).find("\"a \\\"quoted\\\" word\""), std::string::npos);
-}
-
-TEST(PaperScenes, CoarseFibersKeepLengthAndRigidity) {
-  const SceneConfig fine = make_paper_scene(113, 30.0);
-  const Fiber fiber = make_fibers(fine.fibers)[0];
-  for (const int nodes : {6, 9, 12}) {
-    const SceneConfig scene = coarsen(fine, nodes);
-    const Fiber coarse = make_fibers(scene.fibers)[0];
-    EXPECT_EQ(coarse.config.nodes_per_section, nodes);
-    EXPECT_NEAR(coarse.length(), fiber.length(), 0.51 * coarse.spacing());
-    EXPECT_NEAR(measure_beam_stiffness(coarse).infinite_bending / measure_beam_stiffness(fiber).infinite_bending, 1.0,
-                1e-9);
-    EXPECT_GT(coarse.config.blob, fiber.config.blob);
-    EXPECT_LT(coarse.n_nodes(), fiber.n_nodes());
-  }
-  EXPECT_EQ(coarsen(fine, 18).fibers[0].spring_stiffness, fine.fibers[0].spring_stiffness);
 }
 
 TEST(PaperTable, NeedsNoRunsForGeometry) {

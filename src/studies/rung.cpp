@@ -1,0 +1,128 @@
+#include "studies/rung.hpp"
+
+#include <skein/core/error.hpp>
+#include <skein/fibers/calibration.hpp>
+#include <skein/fibers/fiber.hpp>
+#include <skein/physics/rigid_tube.hpp>
+#include <skein/scene/fiber_spacing.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace skein {
+namespace {
+
+constexpr double most_radii = 40.0;  ///< length of the rigid tubes that are compared: ends count, more middle does not
+
+/// A piece of the fiber that is short enough to be solved for quickly.
+RigidTubeDrag measure_piece(FiberConfig fiber) {
+  const double spacing = compute_section_spacing(fiber);
+  fiber.sections =
+      std::max(2, std::min(fiber.sections, static_cast<int>(std::lround(most_radii * fiber.radius / spacing))));
+  return measure_rigid_tube(make_fibers({fiber})[0], 1.0);
+}
+
+/// Both pieces of one length, whole sections of either.
+FiberConfig cut_to(FiberConfig fiber, const double length) {
+  const double spacing = compute_section_spacing(fiber);
+  fiber.sections = std::max(2, static_cast<int>(std::lround(length / spacing)));
+  fiber.spacing = length / fiber.sections;
+  return fiber;
+}
+
+/// The blob at which the tube has this effective aspect ratio, which falls as the blob grows.
+double find_blob(FiberConfig fiber, const double aspect_ratio) {
+  const double distance = std::max(compute_node_spacing(fiber), compute_section_spacing(fiber));
+  const auto excess = [&](const double blob) {
+    fiber.blob = blob;
+    return measure_rigid_tube(make_fibers({fiber})[0], 1.0).effective_aspect_ratio() / aspect_ratio - 1.0;
+  };
+  double low = 0.2 * distance, high = low, above = excess(low), below = above;
+  constexpr double largest = 2.5;
+  while (below > 0.0 && high < largest * distance) {
+    low = high;
+    above = below;
+    high = std::min(1.3 * high, largest * distance);
+    below = excess(high);
+  }
+  if (!(above >= 0.0) || !(below <= 0.0))
+    throw Error(ExitCode::scene_error,
+                fmt::format("no blob makes {} nodes on a section meet the fluid as the fiber's {:g} with its own does",
+                            fiber.nodes_per_section, fiber.radius));
+  for (int step = 0; step < 60 && high - low > 1e-7 * high; ++step) {
+    // The secant's point, kept off the ends, which converges for a function this straight.
+    const double share = std::clamp(above / (above - below), 0.02, 0.98);
+    const double middle = low + share * (high - low), found = excess(middle);
+    (found > 0.0 ? low : high) = middle;
+    (found > 0.0 ? above : below) = found;
+  }
+  return 0.5 * (low + high);
+}
+
+int scale_section(const int section, const int before, const int after) {
+  const auto scale = [&](const int from_end) {
+    return static_cast<int>(std::lround(from_end * (after - 1.0) / (before - 1.0)));
+  };
+  return section >= 0 ? scale(section) : -1 - scale(-1 - section);
+}
+
+}  // namespace
+
+RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
+  RungFit fit{fiber};
+  if (fiber.nodes_per_section == nodes_per_section) return fit;
+  const Fiber fine = make_fibers({fiber})[0];
+  FiberConfig& coarse = fit.fiber;
+  coarse.nodes_per_section = nodes_per_section;
+  coarse.spacing = 0.0;
+  if (fiber.reach_around > 0)
+    coarse.reach_around = std::max(
+        1, static_cast<int>(std::lround(1.0 * fiber.reach_around * nodes_per_section / fiber.nodes_per_section)));
+  coarse = cut_to(coarse, fine.length());
+  // Rigidity is in proportion to the springs' stiffness.
+  coarse.spring_stiffness *=
+      measure_beam_stiffness(fine).infinite_bending / measure_beam_stiffness(make_fibers({coarse})[0]).infinite_bending;
+
+  const double length = std::min(fine.length(), most_radii * fiber.radius);
+  const RigidTubeDrag target = measure_piece(cut_to(fiber, length));
+  FiberConfig piece = cut_to(coarse, length);
+  coarse.blob = piece.blob = find_blob(piece, target.effective_aspect_ratio());
+  const RigidTubeDrag found = measure_piece(piece);
+  fit.aspect_ratio_error = found.effective_aspect_ratio() / target.effective_aspect_ratio() - 1.0;
+  fit.turning_error = found.turning / target.turning - 1.0;
+  fit.transverse_error = found.transverse / target.transverse - 1.0;
+  return fit;
+}
+
+SceneConfig make_rung_scene(SceneConfig scene, const int nodes_per_section) {
+  std::vector<int> before;
+  std::vector<std::pair<FiberConfig, FiberConfig>> known;  // fibers of a suspension are alike but for their places
+  for (FiberConfig& fiber : scene.fibers) {
+    before.push_back(fiber.sections);
+    FiberConfig bare = fiber;
+    bare.center = bare.direction = Vec3{1.0, 0.0, 0.0};
+    bare.roll = 0.0;
+    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& pair) { return pair.first == bare; });
+    const FiberConfig fitted = same != known.end() ? same->second : fit_rung(fiber, nodes_per_section).fiber;
+    if (same == known.end()) known.emplace_back(bare, fitted);
+    fiber.nodes_per_section = fitted.nodes_per_section;
+    fiber.sections = fitted.sections;
+    fiber.spacing = fitted.spacing;
+    fiber.spring_stiffness = fitted.spring_stiffness;
+    fiber.blob = fitted.blob;
+    fiber.reach_around = fitted.reach_around;
+  }
+  const auto rescale = [&](auto& loads) {
+    for (auto& load : loads) {
+      const std::size_t fiber = static_cast<std::size_t>(load.fiber) % scene.fibers.size();
+      load.section = scale_section(load.section, before[fiber], scene.fibers[fiber].sections);
+    }
+  };
+  rescale(scene.tethers);
+  rescale(scene.torques);
+  return scene;
+}
+
+}  // namespace skein

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <skein/scene/scene_config.hpp>
+
+namespace skein {
+
+/// How well a tube of fewer or more nodes stands for another.
+struct RungFit {
+  FiberConfig fiber;
+  /// Of the rigid tubes, both cut to forty radii at most: relative differences from the other's
+  double aspect_ratio_error = 0.0, turning_error = 0.0, transverse_error = 0.0;
+};
+
+/// The fiber with other numbers of nodes: length, radius and bending rigidity (of rigid sections) kept, and by the blob
+/// the effective aspect ratio of the rigid tube, so that it is to the fluid what it was. With the blob kept, tubes of
+/// fewer nodes are thinner to the fluid, and leak. Sections are about as far apart as neighbours on one, so that whole
+/// ones make up the length.
+///
+/// @param nodes_per_section  at least 3; those that the fiber has change nothing
+/// @throws Error(scene_error) where no blob serves, between a fifth of the nodes' distance and two and a half of it
+RungFit fit_rung(const FiberConfig& fiber, int nodes_per_section);
+
+/// The scene with every fiber so; sections that tethers hold and torques turn are the nearest ones.
+SceneConfig make_rung_scene(SceneConfig scene, int nodes_per_section);
+
+}  // namespace skein
