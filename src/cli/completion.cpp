@@ -108,8 +108,9 @@ bool is_option(const Argument& argument) { return argument.names.starts_with('-'
 /// What _skein_value prints: words, a kind that script_end knows, or %other for what cannot be known.
 std::string describe_value(const Argument& argument) {
   static const std::map<std::string, std::string> kinds = {
-      {"SCENE", "%file"},    {"FILE", "%file"},     {"PICTURE", "%file"}, {"DIR", "%folder"},
-      {"FOLDER", "%folder"}, {"KEY=VALUE", "%key"}, {"VERB", "%verb"}};
+      {"SCENE", "%file"},    {"FILE", "%file"},     {"PICTURE", "%file"},
+      {"DIR", "%folder"},    {"FOLDER", "%folder"}, {"RUN[@TIME]", "%folder"},
+      {"KEY=VALUE", "%key"}, {"VERB", "%verb"},     {"time.end=LATER", "time.end="}};
   if (!argument.words.empty()) return fmt::format("{}", fmt::join(argument.words, "\\n"));
   const auto kind = kinds.find(argument.type_name);
   return kind == kinds.end() ? "%other" : kind->second;

@@ -11,6 +11,7 @@
 #include "cli/verbs.hpp"
 #include "runs/finished_run.hpp"
 #include "runs/memory_limit.hpp"
+#include "runs/prolong_run.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
 
@@ -19,12 +20,14 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace skein {
 namespace {
 
 struct ResumeOptions {
   std::string folder;
+  std::vector<std::string> overrides;
   int threads = 0;
   double max_walltime = std::numeric_limits<double>::infinity();
   bool from_start = false, quiet = false;
@@ -41,11 +44,12 @@ std::string compare_programs(const Checkpoint& checkpoint) {
 }
 
 std::string describe_point(const ResumePoint& point, const SceneConfig& scene) {
-  if (!point.checkpoint) return "resume: there is no checkpoint; the run starts at t = 0";
-  const double time = point.checkpoint->number("state.time");
+  if (!point.checkpoint)
+    return fmt::format("resume: there is no checkpoint; the run starts at t = {:g}", scene.time.start);
+  const double time = point.checkpoint->number("state.time"), span = scene.time.end - scene.time.start;
   return fmt::format("resume: from '{}', t = {:.6g}, step {}; {:.1f} % of the simulated time is done, {:.6g} is left",
                      point.path.string(), time, point.checkpoint->integer("state.step"),
-                     scene.time.end > 0.0 ? 100.0 * time / scene.time.end : 100.0, scene.time.end - time);
+                     span > 0.0 ? 100.0 * (time - scene.time.start) / span : 100.0, scene.time.end - time);
 }
 
 int finish_run(const RunFolder& folder, const SceneConfig& scene, const Checkpoint& checkpoint) {
@@ -61,9 +65,12 @@ int resume_run(const ResumeOptions& options) {
   const Runtime runtime(options.threads);  // before anything is changed: there may be no such threads
   const RunLock lock(folder);
   if (!lock.note().empty()) print_warning(lock.note());
+  const LaterEnd later = find_later_end(folder, options.overrides);
   const ResumePoint point = find_resume_point(folder, options.from_start);
+  move_end(folder, later);
   const SceneConfig scene = read_run_scene(folder);
   check_memory(scene);
+  const std::string first_words = later.text.empty() ? "" : later.description + "\n";
   std::string what_happened;
   for (const std::string& rejected : point.rejected) what_happened += rejected + "\n";
   if (is_at_end(scene, point)) {
@@ -76,7 +83,7 @@ int resume_run(const ResumeOptions& options) {
   RunControl control(options.max_walltime);
   TerminalListener listener(options.quiet);
   return static_cast<int>(simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
-                                   what_happened + describe_point(point, scene)));
+                                   first_words + what_happened + describe_point(point, scene)));
 }
 
 }  // namespace
@@ -88,13 +95,15 @@ Verb make_resume_verb() {
       "Go on with a run that was stopped, killed or failed",
       {make_folder_argument(&options->folder),
        make_flag("--from-start", &options->from_start,
-                 "Drop the frames of a run that has no good checkpoint, and start again at t = 0"),
+                 "Drop the frames of a run that has no good checkpoint, and start again at its beginning"),
+       make_argument("--set", &options->overrides, "time.end=LATER", "Go on to a later end; no other key may change"),
        make_threads_option(&options->threads), make_walltime_option(&options->max_walltime),
        make_quiet_flag(&options->quiet)},
       "Examples:\n"
       "  skein resume tumbling\n"
       "  skein resume tumbling --max-walltime 8h --threads 2\n"
-      "The run goes on from its newest good checkpoint to its original end, "
+      "  skein resume tumbling --set time.end=24.0\n"
+      "The run goes on from its newest good checkpoint to its end, "
       "and is equal in every bit to one that was\n"
       "never interrupted. A checkpoint that is damaged or cannot be read is named and an older one used. A run that\n"
       "has frames but no good checkpoint is left as it is, unless --from-start is given. One that is done is looked\n"

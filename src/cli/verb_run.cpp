@@ -8,7 +8,7 @@
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
-#include "runs/placed_scene.hpp"
+#include "runs/child_run.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
 
@@ -19,13 +19,15 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace skein {
 namespace {
 
 struct RunOptions {
-  std::string scene;
+  std::string scene;  ///< empty with `from`: that run's own
+  std::string from;   ///< earlier run, and @time; empty: none
   std::filesystem::path folder;
   std::vector<std::string> overrides;                             ///< "key=value"
   bool overwrite = false;                                         ///< replace an earlier run in the folder
@@ -36,21 +38,36 @@ struct RunOptions {
 };
 
 // The folder is locked before anything in it is written or replaced.
-RunFolder make_folder(const RunOptions& options, const std::string& scene_text, std::optional<RunLock>& lock) {
-  RunFolder folder = RunFolder::create(options.folder, scene_text, options.overwrite, [&](const RunFolder& found) {
-    if (found.is_part(options.scene))
+RunFolder make_folder(const RunOptions& options, const NewRun& run, std::optional<RunLock>& lock) {
+  const auto use = [&](const RunFolder& found) {
+    if (!options.scene.empty() && found.is_part(options.scene))
       throw Error(ExitCode::cannot_create,
                   fmt::format("the scene '{}' belongs to the run that --overwrite would remove; copy it to another "
                               "folder first.",
                               options.scene));
     lock.emplace(found);
-  });
+  };
+  RunFolder folder = RunFolder::create(options.folder, run.placed.text, options.overwrite, use, run.start);
   if (!lock->note().empty()) print_warning(lock->note());
   return folder;
 }
 
+NewRun make_run(const RunOptions& options) {
+  if (options.from.empty() && options.scene.empty())
+    throw Error(ExitCode::usage, "a scene is required, or --from RUN\n'skein run --help' shows what can be written");
+  if (options.from.empty()) return make_new_run(options.scene, options.overrides);
+  NewRun run = make_child_run(options.from, options.scene, options.overrides);
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options.folder, run.placed.config.start.parent, ignored))
+    throw Error(ExitCode::cannot_create,
+                fmt::format("'{}' is the run to begin with; name another output folder", options.folder.string()));
+  return run;
+}
+
 int run_scene(const RunOptions& options) {
-  const PlacedScene placed = read_placed_scene(options.scene, options.overrides);
+  const NewRun run = make_run(options);
+  const PlacedScene& placed = run.placed;
+  if (!run.what_happened.empty()) print_warning(run.what_happened);
   if (!options.quiet && !placed.warnings.empty()) print_warning(describe_problems(placed.warnings));
 
   const Runtime runtime(options.threads);
@@ -60,9 +77,9 @@ int run_scene(const RunOptions& options) {
   }
   RunControl control(options.max_walltime);
   std::optional<RunLock> lock;
-  const RunFolder folder = make_folder(options, placed.text, lock);
+  const RunFolder folder = make_folder(options, run, lock);
   TerminalListener listener(options.quiet);
-  return static_cast<int>(simulate(placed.config, folder, nullptr, control, listener));
+  return static_cast<int>(simulate(placed.config, folder, nullptr, control, listener, run.what_happened));
 }
 
 }  // namespace
@@ -72,7 +89,9 @@ Verb make_run_verb() {
   return {
       "run",
       "Simulate a scene into a run folder",
-      {make_scene_argument(&options->scene),
+      {make_argument("scene", &options->scene, "SCENE", "Scene file (TOML); may be left out with --from"),
+       make_argument("--from", &options->from, "RUN[@TIME]",
+                     "Begin with the state that an earlier run has reached, or with its frame at this time"),
        make_argument("-o,--output", &options->folder, "DIR", "Run folder to make").require(),
        make_overrides_option(&options->overrides),
        make_flag("--overwrite", &options->overwrite, "Replace an earlier run in the folder"),
@@ -83,6 +102,11 @@ Verb make_run_verb() {
       "  skein run configs/tumbling.toml -o tumbling\n"
       "  skein run configs/tumbling.toml -o longer --set fiber.sections=113 --set time.end=16.0\n"
       "  skein run configs/tumbling.toml -o night --max-walltime 8h --threads 2\n"
+      "  skein run --from tumbling -o softer --set time.end=24.0 --set fiber.spring_stiffness=0.005\n"
+      "  skein run --from tumbling@5.45 other.toml -o other\n"
+      "With --from time goes on at the time of the earlier run, whose scene it is, with these changes, unless another "
+      "one\n"
+      "is named.\n"
       "The exit code is 0 if the end was reached, 75 if the run was stopped and 'skein resume' can go on.\n"
       "Interrupts and what batch systems send (SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2, SIGALRM) stop it\n"
       "with a checkpoint, and so does a file STOP in the run folder; a file OUTPUT_NOW there makes a checkpoint and\n"

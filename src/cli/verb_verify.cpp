@@ -21,6 +21,8 @@ int verify_run(const std::string& folder) {
   print_result(fmt::format("status: {}\nframes: {}\nsteps: {}\nsegments: {}\ncheckpoints: {}\nlast time: {}\n",
                            make_terminal_line(check.status), check.frames, check.records, check.segments,
                            check.checkpoints, check.last_time));
+  if (!check.parent.empty())
+    print_result(fmt::format("begun with the state of: {}\n", make_terminal_line(check.parent)));
   if (!check.problems.empty()) {
     const auto n_unreadable = static_cast<std::size_t>(check.unreadable);
     const char* plural = check.problems.size() == 1 ? "" : "s";

@@ -26,7 +26,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "checkpoints are written as numbers lie in memory");
 
-constexpr std::string_view magic = "\x89SKEIN\r\n";
+constexpr std::string_view magic = checkpoint_magic;
 constexpr std::uint32_t format_version = 1;
 constexpr std::size_t header_size = 24, seal_size = 16, unit = 8;
 

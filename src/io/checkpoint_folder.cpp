@@ -67,7 +67,7 @@ Fault why_not(const RunFolder& folder, const fs::path& path, Checkpoint& checkpo
 // Where no checkpoint can serve, starting again would drop whatever frames there are.
 void check_nothing_is_lost(const RunFolder& folder, const std::vector<Fault>& faults) {
   constexpr const char* remedy =
-      "Put them back, or drop the frames and start again at t = 0: 'skein resume {} --from-start'.";
+      "Put them back, or drop the frames and start again at the beginning: 'skein resume {} --from-start'.";
   const std::string name = folder.path().string();
   if (!faults.empty()) {
     std::vector<std::string> texts;
@@ -85,6 +85,23 @@ void check_nothing_is_lost(const RunFolder& folder, const std::vector<Fault>& fa
                 fmt::format("'{}' has frames in '{}' but no checkpoint in '{}': they are gone or elsewhere. {}", name,
                             folder.segments().string(), folder.checkpoints().string(),
                             fmt::format(fmt::runtime(remedy), name)));
+}
+
+/// @param faults  of the newer checkpoints, newest first
+ResumePoint look_for_point(const RunFolder& folder, std::vector<Fault>& faults) {
+  check_scene_is_of_run(folder);
+  const auto numbers = CheckpointFolder::list_numbers(folder);
+  ResumePoint point;
+  for (auto number = numbers.rbegin(); number != numbers.rend() && !point.checkpoint; ++number) {
+    point.path = CheckpointFolder::path_of(folder, *number);
+    Checkpoint checkpoint;
+    Fault fault = why_not(folder, point.path, checkpoint);
+    if (fault.code == ExitCode::done)
+      point.checkpoint = std::move(checkpoint);
+    else
+      faults.push_back(std::move(fault));
+  }
+  return point;
 }
 
 // @returns what became of the file
@@ -136,31 +153,28 @@ void CheckpointFolder::rehearse(const Checkpoint& checkpoint) const {
 }
 
 void check_checkpoint(const RunFolder& folder, const Checkpoint& checkpoint) {
-  if (checkpoint.text("scene.xxh3") != checksum_of_file(folder.scene()))
+  if (checkpoint.text("scene.xxh3") != checksum_of_first_scene(folder))
     throw Error(ExitCode::damaged_data, "it belongs to another scene than this folder's scene.toml");
   check_trajectory(folder, read_trajectory_end(checkpoint), true);
 }
 
 ResumePoint find_resume_point(const RunFolder& folder, const bool from_start) {
-  check_scene_is_of_run(folder);
-  const auto numbers = CheckpointFolder::list_numbers(folder);
-  ResumePoint point;
   std::vector<Fault> faults;
-  for (auto number = numbers.rbegin(); number != numbers.rend() && !point.checkpoint; ++number) {
-    point.path = CheckpointFolder::path_of(folder, *number);
-    Checkpoint checkpoint;
-    Fault fault = why_not(folder, point.path, checkpoint);
-    if (fault.code == ExitCode::done)
-      point.checkpoint = std::move(checkpoint);
-    else
-      faults.push_back(std::move(fault));
-  }
+  ResumePoint point = look_for_point(folder, faults);
   if (point.checkpoint && from_start)
     throw Error(ExitCode::usage, fmt::format("'{}' is a good checkpoint, and the run would lose its frames: resume it "
                                              "without --from-start, or compute it anew in another folder.",
                                              point.path.string()));
   if (!point.checkpoint && !from_start) check_nothing_is_lost(folder, faults);
   for (const Fault& fault : faults) point.rejected.push_back(fault.text + set_apart(fault.path));
+  return point;
+}
+
+ResumePoint look_for_resume_point(const RunFolder& folder) {
+  std::vector<Fault> faults;
+  ResumePoint point = look_for_point(folder, faults);
+  if (!point.checkpoint) check_nothing_is_lost(folder, faults);
+  for (const Fault& fault : faults) point.rejected.push_back(fault.text);
   return point;
 }
 

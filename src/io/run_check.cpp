@@ -4,8 +4,9 @@
 #include <skein/io/run_check.hpp>
 #include <skein/io/run_leftovers.hpp>
 #include <skein/io/run_scene.hpp>
+#include <skein/io/start_file.hpp>
 #include <skein/io/trajectory_end.hpp>
-#include <skein/scene/frame_times.hpp>
+#include <skein/scene/recorded_times.hpp>
 
 #include "hdf5_reader.hpp"
 #include "segment_check.hpp"
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -31,12 +33,14 @@ class RunChecker {
         layout_(make_layout(scene_)),
         frames_(make_frame_series(layout_, scene_.output)),
         records_(make_step_series(layout_)) {
-    check_.checksum = checksum_of_file(folder.scene());
+    check_.checksum = checksum_of_first_scene(folder);
+    record_times_.push_back(scene_.time.start);
     ends_[0] = {0, 0, 0, check_.checksum};
   }
 
   RunCheck check() {
     read_index();
+    check_start();
     for (std::int64_t number = 0; number < n_segments_; ++number)
       if (!check_segment(number)) break;
     compare_with_index();
@@ -79,10 +83,12 @@ class RunChecker {
   }
 
   void read_index();
+  void check_start();
   bool check_segment(std::int64_t number);
   void check_frames(const SegmentMoments& moments);
   void check_frame(const std::string& name, double time, std::int64_t step);
   void check_records(const SegmentMoments& moments);
+  bool ends_at_earlier_end() const;
   void compare_with_index();
   void count_segments();
   void note_leftovers();
@@ -99,7 +105,7 @@ class RunChecker {
   std::int64_t n_segments_ = 0;  // that are looked for: the listed ones or, without an index, those that are there
   std::string listed_checksum_;
   std::map<std::int64_t, TrajectoryEnd> ends_;  // after so many segments
-  std::vector<double> record_times_{0.0};       // at index k: after k accepted steps
+  std::vector<double> record_times_;            // at index k: after k accepted steps
   double last_frame_time_ = 0.0;
 };
 
@@ -114,6 +120,14 @@ void RunChecker::read_index() {
     report(error, " 'skein resume' writes this file anew.");
     try_to([this] { count_segments(); });
   }
+}
+
+void RunChecker::check_start() {
+  const StartConfig& start = scene_.start;
+  if (start.checksum.empty()) return;
+  check_.parent = fmt::format("'{}' at t = {}, step {}, certificate {}", start.parent, scene_.time.start, start.step,
+                              start.certificate);
+  try_to([this] { read_start(folder_.start(), scene_); });
 }
 
 // Where the index does not list them: those that follow each other from the first on.
@@ -179,12 +193,13 @@ void RunChecker::check_frames(const SegmentMoments& moments) {
 }
 
 void RunChecker::check_frame(const std::string& name, const double time, const std::int64_t step) {
-  const double due = find_frame_time(scene_, check_.frames);
+  const double due = check_.frames == 0 ? scene_.time.start : find_next_frame(scene_, last_frame_time_);
   // A run that failed adds the last state it could reach.
   const bool is_last_state =
       (check_.status == "failed" || check_.status == "unknown") && time == record_times_.back() && time < due;
   if (time != due && !is_last_state)
-    report("'{}': frame {} is at t = {} and should be at {}", name, check_.frames, time, due);
+    report("'{}': frame {} is at t = {} and should be at {}", name, check_.frames, time,
+           std::isfinite(due) ? fmt::format("{}", due) : "no time: the frame before is at the scene's end");
   if (check_.frames > 0 && !(time > last_frame_time_))
     report("'{}': frame {} at t = {} comes after one at {}", name, check_.frames, time, last_frame_time_);
   const auto n_steps = static_cast<std::int64_t>(record_times_.size());
@@ -195,11 +210,20 @@ void RunChecker::check_frame(const std::string& name, const double time, const s
   ++check_.frames;
 }
 
+bool RunChecker::ends_at_earlier_end() const {
+  const auto& ends = scene_.time.earlier_ends;
+  return last_frame_time_ == record_times_.back() &&
+         std::find(ends.begin(), ends.end(), last_frame_time_) != ends.end();
+}
+
 void RunChecker::compare_with_index() {
   if (check_.segments < n_segments_) return;  // said already
   if (!listed_checksum_.empty() && listed_checksum_ != check_.checksum)
     report("the index says that the chain ends with {}, the segments say {}", listed_checksum_, check_.checksum);
-  if (check_.status == "done" && (last_frame_time_ != scene_.time.end || record_times_.back() != scene_.time.end))
+  if (check_.status == "done" && ends_at_earlier_end())
+    note(fmt::format("the run ended at t = {}, and its end was moved to {}: 'skein resume' goes on", last_frame_time_,
+                     scene_.time.end));
+  else if (check_.status == "done" && (last_frame_time_ != scene_.time.end || record_times_.back() != scene_.time.end))
     report(
         "the run says that it is done, but its last frame is at t = {}, its last step at {}, and the scene ends at {}",
         last_frame_time_, record_times_.back(), scene_.time.end);

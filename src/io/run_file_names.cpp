@@ -1,5 +1,7 @@
 #include "run_file_names.hpp"
 
+#include <skein/io/run_folder.hpp>
+
 #include <array>
 #include <cctype>
 #include <string_view>
@@ -19,10 +21,13 @@ std::string_view without_partial(std::string_view name) {
 bool is_file_of_a_run(const std::string& name) {
   constexpr std::array<std::string_view, 7> names = {"scene.toml",   "trajectory.h5", "trajectory.xdmf", "run.log",
                                                      "events.jsonl", "STOP",          "OUTPUT_NOW"};
+  if (is_start_file(name)) return true;
   for (const std::string_view known : names)
     if (without_partial(name) == known) return true;
   return false;
 }
+
+bool is_start_file(const std::string& name) { return without_partial(name) == RunFolder::start_name; }
 
 bool is_numbered_file(const std::string& name) {
   std::string_view stem = without_partial(name);

@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/checkpoint.hpp>
 #include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
@@ -27,6 +28,20 @@ bool begins_as(const std::string& scene, const fs::path& half) {
   return text.substr(0, key.size()) == key.substr(0, text.size());
 }
 
+// The state of another run, or half of it.
+bool begins_as_checkpoint(const fs::path& file) {
+  const std::string magic(checkpoint_magic), text = read_file(file);
+  return text.substr(0, magic.size()) == magic.substr(0, text.size());
+}
+
+bool is_beginning(const RunFolder& folder, const std::string& name, const std::string& scene) {
+  const fs::path path = folder.path() / name;
+  if (!is_file(path)) return false;
+  if (name == "scene.toml.partial") return begins_as(scene, path);
+  if (is_start_file(name)) return begins_as_checkpoint(path);
+  return path == folder.lock();
+}
+
 // What a run leaves that is killed before its scene is there. Whatever else lies there is somebody's.
 bool is_only_begun(const RunFolder& folder, const std::vector<std::string>& names, const std::string& scene) {
   bool has_segments = false;
@@ -34,7 +49,7 @@ bool is_only_begun(const RunFolder& folder, const std::vector<std::string>& name
     const fs::path path = folder.path() / name;
     if (path == folder.segments() && fs::is_directory(fs::symlink_status(path)) && list_names(path).empty())
       has_segments = true;
-    else if (!is_file(path) || (path != folder.lock() && !(name == "scene.toml.partial" && begins_as(scene, path))))
+    else if (!is_beginning(folder, name, scene))
       return false;
   }
   return has_segments;
@@ -115,7 +130,8 @@ bool is_way_to_part(const fs::path& way) {
 
 }  // namespace
 
-RunFolder RunFolder::create(const fs::path& path, const std::string& scene, const bool overwrite, const Use& use) {
+RunFolder RunFolder::create(const fs::path& path, const std::string& scene, const bool overwrite, const Use& use,
+                            const std::string& start) {
   if (path.empty()) throw Error(ExitCode::usage, "the run folder has no name");
   RunFolder folder(path);
   const std::string name = path.string();
@@ -126,7 +142,11 @@ RunFolder RunFolder::create(const fs::path& path, const std::string& scene, cons
     if (!fs::create_directories(folder.segments()) && content == Content::nothing)
       throw Error(ExitCode::cannot_create, fmt::format("another run has just begun in '{}'.", name));
     if (use) use(folder);
-    const auto earlier = content == Content::run ? list_files_of_run(folder) : std::vector<fs::path>{};
+    auto earlier = content == Content::nothing ? std::vector<fs::path>{} : list_files_of_run(folder);
+    if (!start.empty()) {  // before the scene that names it
+      std::erase(earlier, folder.start());
+      write_file_atomically(folder.start(), start);
+    }
     // Once the new scene is there the rest is no run of it any more, whatever happens.
     write_file_atomically(folder.scene(), scene);
     for (const fs::path& file : earlier) fs::remove(file);

@@ -2,6 +2,7 @@
 #include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_scene.hpp>
+#include <skein/scene/earlier_ends.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "scene_in_index.hpp"
@@ -29,7 +30,8 @@ void check_scene_is_of_run(const RunFolder& folder) {
 
 void compare_with_scene_in_index(const RunFolder& folder, const Hdf5Reader& index) {
   if (!index.has_attribute("/parameters", "scene")) return;
-  if (index.text_attribute("/parameters", "scene") != read_file(folder.scene()))
+  // A run whose end was moved, and that was killed then, has the index of before.
+  if (!is_prolonged_from(read_file(folder.scene()), index.text_attribute("/parameters", "scene")))
     throw Error(
         ExitCode::damaged_data,
         fmt::format("'{0}' is not the scene that this run was computed with: it was changed since. Put it back, "

@@ -43,6 +43,8 @@ RunSummary read_run_summary(const std::filesystem::path& path) {
   summary.frames = sum(list.frames);
   summary.steps = sum(list.steps);
   summary.segments = list.size();
+  summary.certificate =
+      list.size() == 0 ? checksum_of_first_scene(folder) : index.text_attribute("/parameters/segments", "xxh3");
   summary.last_time = list.last_time.empty() ? std::numeric_limits<double>::quiet_NaN() : list.last_time.back();
   summary.segment_frames = std::move(list.frames);
   return summary;

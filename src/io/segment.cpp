@@ -1,6 +1,7 @@
 #include "segment.hpp"
 
 #include <skein/io/read_file.hpp>
+#include <skein/scene/earlier_ends.hpp>
 
 #include "moments.hpp"
 
@@ -66,9 +67,9 @@ SegmentLabel read_segment_label(const Hdf5Reader& file) {
   return label;
 }
 
-std::string checksum_of_file(const std::filesystem::path& path) {
+std::string checksum_of_first_scene(const RunFolder& folder) {
   Checksum checksum;
-  checksum.add(read_file(path));
+  checksum.add(find_first_scene_text(read_file(folder.scene())));
   return checksum.text();
 }
 

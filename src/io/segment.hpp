@@ -29,9 +29,9 @@ std::string segment_name(std::int64_t number);
 /// Writes what was buffered as one file that is never opened for writing again. It holds the time-dependent datasets
 /// under the names they have in the index, the positions of each frame as /frames/0, ... once more (views, for XDMF),
 /// and as attributes of its root: number, first_frame, first_record, xxh3, previous_xxh3. Behind HDF5's own end stands
-/// the file's seal, see checksum.hpp. The chain starts with the
-/// xxh3 of scene.toml; each xxh3 is that of the previous one's 16 digits, then for frames and for step records: step,
-/// time, and the value of every element in the order of series.cpp, raw as stored.
+/// the file's seal, see checksum.hpp. The chain starts with the xxh3 of scene.toml as it was first; each xxh3 is that
+/// of the previous one's 16 digits, then for frames and for step records: step, time, and the value of every element in
+/// the order of series.cpp, raw as stored.
 ///
 /// @param segment  number, first_frame and first_record; the rest is filled in
 /// @returns the bytes written
@@ -50,7 +50,8 @@ struct SegmentLabel {
 SegmentLabel read_segment_label(const RunFolder& folder, std::int64_t number, bool check_seal);
 SegmentLabel read_segment_label(const Hdf5Reader& file);
 
-/// xxh3 of a whole file, 16 hexadecimal digits: where the chain begins.
-std::string checksum_of_file(const std::filesystem::path& path);
+/// xxh3 of the scene's text with which the run began (see find_first_scene_text), 16 hexadecimal digits: where the
+/// chain begins. A scene that was changed at any other place than its end has another one.
+std::string checksum_of_first_scene(const RunFolder& folder);
 
 }  // namespace skein

@@ -18,7 +18,7 @@ SegmentLabel read_label(const RunFolder& folder, const std::int64_t number, cons
 
 }  // namespace
 
-TrajectoryEnd find_trajectory_start(const RunFolder& folder) { return {0, 0, 0, checksum_of_file(folder.scene())}; }
+TrajectoryEnd find_trajectory_start(const RunFolder& folder) { return {0, 0, 0, checksum_of_first_scene(folder)}; }
 
 void write_trajectory_end(Checkpoint& checkpoint, const TrajectoryEnd& end) {
   using Integers = std::vector<std::int64_t>;
@@ -34,7 +34,7 @@ TrajectoryEnd read_trajectory_end(const Checkpoint& checkpoint) {
 }
 
 void check_trajectory(const RunFolder& folder, const TrajectoryEnd& end, const bool check_seals) {
-  std::string checksum = checksum_of_file(folder.scene());
+  std::string checksum = checksum_of_first_scene(folder);
   std::int64_t n_frames = 0, n_records = 0;
   for (std::int64_t number = 0; number < end.segments; ++number) {
     const SegmentLabel label = read_label(folder, number, check_seals);

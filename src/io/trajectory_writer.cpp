@@ -41,7 +41,7 @@ struct TrajectoryWriter::Parts {
         frames(make_frame_series(layout, output)),
         records(make_step_series(layout)),
         xdmf(layout.fibers, output),
-        checksum(checksum_of_file(folder.scene())) {}
+        checksum(checksum_of_first_scene(folder)) {}
 
   RunFolder folder;
   TrajectoryLayout layout;

@@ -22,7 +22,8 @@ void check_times(const SceneConfig& scene, const double time_scale) {
   const auto reject = [&](const std::string& what) {
     throw Error(ExitCode::scene_error, fmt::format("{} (the scene's time scale is {:.3g})", what, time_scale));
   };
-  const double reach = time.end > 0.0 ? std::min(time.end, time_scale) : time_scale;
+  const double duration = time.end - time.start;
+  const double reach = duration > 0.0 ? std::min(duration, time_scale) : time_scale;
   if (time.method != TimeMethod::euler && time.tolerance * reach > 1.0)
     reject(
         fmt::format("time.tolerance {:g} allows an error of {:.3g} fiber lengths within a time of {:.3g}: take a "
@@ -33,10 +34,10 @@ void check_times(const SceneConfig& scene, const double time_scale) {
         fmt::format("time.tolerance {:g} is below the rounding of positions, {:.3g} per unit of time: take a larger "
                     "one, or leave the key out",
                     time.tolerance, least_error / time_scale));
-  if (time.end / (time.step > 0.0 ? time.step : time.max_step) > n_steps_allowed)
+  if (duration / (time.step > 0.0 ? time.step : time.max_step) > n_steps_allowed)
     reject(fmt::format("time.end {:g} would take more than {:.0e} steps of {:.3g}", time.end, n_steps_allowed,
                        time.step > 0.0 ? time.step : time.max_step));
-  if (time.end / scene.output.frame_interval > n_frames_allowed)
+  if (duration / scene.output.frame_interval > n_frames_allowed)
     reject(fmt::format("time.end {:g} would make more than {:.0e} frames: set output.frame_interval", time.end,
                        n_frames_allowed));
 }

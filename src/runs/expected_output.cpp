@@ -17,7 +17,7 @@ double count_checkpoints(const SceneConfig& scene, const double seconds) {
   const CheckpointConfig& config = scene.checkpoint;
   double n = 2.0;
   if (config.wall_interval > 0.0) n += std::floor(seconds / config.wall_interval);
-  if (config.simulated_interval > 0.0) n += std::floor(scene.time.end / config.simulated_interval);
+  if (config.simulated_interval > 0.0) n += std::floor((scene.time.end - scene.time.start) / config.simulated_interval);
   return n;
 }
 
@@ -29,7 +29,7 @@ std::string describe_expected_output(const SceneConfig& scene, const std::vector
   const double seconds = std::isfinite(expectation.seconds) ? expectation.seconds : 0.0;
   const double n_checkpoints = count_checkpoints(scene, seconds);
   const std::size_t scene_bytes = write_scene(scene).size();
-  TrajectoryCounts counts{.frames = 1.0 + std::ceil(scene.time.end / scene.output.frame_interval),
+  TrajectoryCounts counts{.frames = 1.0 + std::ceil((scene.time.end - scene.time.start) / scene.output.frame_interval),
                           .records = expectation.steps};
   const DiskUse content = expect_trajectory_size(fibers, scene.output, scene_bytes, counts);
   // With a checkpoint ends a segment, but for that of the start, before which there is nothing.

@@ -32,19 +32,27 @@ double expect_largest_step(const TimeConfig& time, const double time_scale) {
 /// Evaluations a run will take, roughly. That of RKC2 serves for the methods that are chosen where they take less.
 double expect_evaluations(const SceneConfig& scene, const double time_scale, const double spectral_radius) {
   const TimeConfig time = resolve_time(scene.time, time_scale);
-  const double dt = expect_largest_step(time, time_scale);
+  const double dt = expect_largest_step(time, time_scale), duration = time.end - time.start;
   switch (time.method) {
     case TimeMethod::euler:
-      return time.end / dt;
+      return duration / dt;
     case TimeMethod::rk4:
     case TimeMethod::bs3:
-      return 4.0 * time.end * std::max(1.0 / dt, spectral_radius / 2.5);
+      return 4.0 * duration * std::max(1.0 / dt, spectral_radius / 2.5);
     case TimeMethod::automatic:
     case TimeMethod::rkc2:
     case TimeMethod::trbdf2:
-      return time.end / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
+      return duration / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
   }
   throw Error(ExitCode::internal, "expect_evaluations knows no such method");
+}
+
+/// "to t = 12", with the start where that is not 0
+std::string describe_span(const SceneConfig& scene) {
+  std::string text = fmt::format("to t = {:g}", scene.time.end);
+  if (scene.time.start > 0.0) text = fmt::format("from t = {:g} {}", scene.time.start, text);
+  if (!scene.start.parent.empty()) text += fmt::format(", begun with the state of '{}'", scene.start.parent);
+  return text;
 }
 
 }  // namespace
@@ -94,13 +102,14 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_scene(scene);
   if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
-  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, to t = {:g}\n", summarize_flow(scene.flows).description,
-                      describe_choice(choose_mobility(scene), scene), integrator, scene.time.end);
+  text += fmt::format("flow: {}\nmobility: {}\ntime: {}, {}\n", summarize_flow(scene.flows).description,
+                      describe_choice(choose_mobility(scene), scene), integrator, describe_span(scene));
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);
-  const Expectation expectation{scene.time.end / expect_largest_step(resolve_time(scene.time, time_scale), time_scale),
-                                evaluations * cost.seconds, checkpoint_bytes};
+  const Expectation expectation{
+      (scene.time.end - scene.time.start) / expect_largest_step(resolve_time(scene.time, time_scale), time_scale),
+      evaluations * cost.seconds, checkpoint_bytes};
   text += fmt::format(
       "cost: {:.3g} ms an evaluation, wall time beside what else this machine does now; roughly {:.2g} evaluations, "
       "{}; {}",

@@ -2,7 +2,7 @@
 
 #include <skein/analysis/crossing.hpp>
 #include <skein/io/read_file.hpp>
-#include <skein/scene/frame_times.hpp>
+#include <skein/scene/recorded_times.hpp>
 
 #include "runs/observables.hpp"
 #include "runs/run_description.hpp"
@@ -49,9 +49,10 @@ void RunRecorder::visit_memory(MemoryVisitor& visitor) {
 }
 
 void RunRecorder::begin(const State& state) {
+  time_ = state.time;
   centreline_ = physics_.sections.compute_centreline(state.position);
   if (next_frame_ == 0) {
-    write_frame(0, 0.0, state.position);
+    write_frame(0, state.time, state.position);
     next_frame_ = 1;
   } else {
     regimes_ = classify_frame(physics_.fibers, make_frame(physics_, state.step, state.time, state.position));
@@ -68,11 +69,7 @@ void RunRecorder::record(const State& state, const StepReport& report, const Int
 }
 
 void RunRecorder::write_frames_in_step(const State& state, const Integrator& integrator) {
-  for (;;) {
-    // The last frame is the end of the run, whether or not it is a multiple of the interval.
-    const double due = find_frame_time(scene_, next_frame_);
-    const bool after_end = find_frame_time(scene_, next_frame_ - 1) >= scene_.time.end;
-    if (due > state.time || after_end) return;
+  for (double due = find_next_frame(scene_, time_); due <= state.time; due = find_next_frame(scene_, due)) {
     if (due == state.time) {
       write_frame(state.step, state.time, state.position);
     } else {
@@ -81,11 +78,11 @@ void RunRecorder::write_frames_in_step(const State& state, const Integrator& int
     }
     ++next_frame_;
   }
+  time_ = state.time;
 }
 
 void RunRecorder::record_last_good(const State& state) {
-  if (state.time > (static_cast<double>(next_frame_) - 1.0) * scene_.output.frame_interval)
-    write_frame(state.step, state.time, state.position);
+  if (!is_frame_time(scene_, state.time)) write_frame(state.step, state.time, state.position);
 }
 
 void RunRecorder::write_frame(const std::int64_t step, const double time, const ConstVectors& position) {

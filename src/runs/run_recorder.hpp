@@ -53,6 +53,7 @@ class RunRecorder {
   ModelGuard guard_;
   Vectors frame_position_;
   std::int64_t next_frame_ = 0;
+  double time_ = 0.0;             ///< up to which frames were looked for
   std::vector<Regime> regimes_;   ///< [n_fibers], of the last frame
   std::vector<Vec3> centreline_;  ///< [n_sections], of the last step, length
   std::int64_t crossings_ = 0;    ///< since the start of the run

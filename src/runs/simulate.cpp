@@ -23,13 +23,13 @@ std::string describe_dry_run(const SceneConfig& scene) {
   FiberDynamics dynamics(physics);
   const auto integrator = make_integrator(scene, physics, dynamics);
   const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
-  State state{0.0, 0, position};
+  State state{scene.time.start, 0, position};
   MemorySize size;
   visit_memory(size, state);
   integrator->visit_memory(size);
   const EvaluationCost cost = time_evaluation(dynamics, position);
   return describe_run(scene, physics.fibers, physics.describe_forces(), integrator->describe(), cost,
-                      find_spectral_radius(scene, dynamics, 0.0, position), size.bytes());
+                      find_spectral_radius(scene, dynamics, scene.time.start, position), size.bytes());
 }
 
 }  // namespace skein

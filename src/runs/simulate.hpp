@@ -14,7 +14,7 @@ namespace skein {
 
 /// One run of one scene, for callers that know nothing of devices: introduces itself and goes to the end of the scene,
 /// or until it is asked to stop. Needs Kokkos. Faults that the environment orders for tests are put in.
-/// @param checkpoint   where the run goes on; null: it starts at t = 0
+/// @param checkpoint   where the run goes on; null: it starts
 /// @param first_words  said before anything else, if there are any
 /// @throws Error(numerical) after saving the last good state
 ExitCode simulate(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,

@@ -6,9 +6,11 @@
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/io/trajectory_end.hpp>
 #include <skein/physics/scene_times.hpp>
+#include <skein/scene/recorded_times.hpp>
 
 #include "runs/evaluation_time.hpp"
 #include "runs/run_description.hpp"
+#include "runs/start_state.hpp"
 
 #include <fmt/format.h>
 
@@ -42,7 +44,7 @@ Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const 
       control_(control),
       messages_(folder, listener),
       physics_(make_prepared_physics(scene, hooks, state_)),
-      state_{0.0, 0, to_device("skein::Simulation::position", make_surface_nodes(physics_.fibers, scene.seed))},
+      state_(make_start_state(scene, folder, checkpoint != nullptr, physics_)),
       dynamics_(physics_),
       decorator_(decorate(hooks, dynamics_, state_)),
       watched_dynamics_(decorator_ == nullptr ? static_cast<RightHandSide&>(dynamics_) : *decorator_, control),
@@ -123,7 +125,7 @@ void Simulation::take_step() {
   StepReport report;
   {
     const Stopwatch stopwatch(ledger_.parts().integration);  // also a step that is not finished takes time
-    report = integrator_->advance(state_, scene_.time.end);
+    report = integrator_->advance(state_, find_next_end(scene_.time, state_.time));
   }
   count(report);
   recorder_.record(state_, report, *integrator_);

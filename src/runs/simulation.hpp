@@ -23,7 +23,7 @@ namespace skein {
 class Simulation {
  public:
   /// @param folder      holds the scene's text; whatever a trajectory in it has behind the checkpoint is removed
-  /// @param checkpoint  where the run goes on; null: it starts at t = 0
+  /// @param checkpoint  where the run goes on; null: it starts
   /// @param control, listener  must outlive the simulation
   Simulation(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
              RunListener& listener, const RunHooks& hooks = {});

@@ -17,6 +17,7 @@ class KeyCollector : public KeyVisitor {
   void number(const Key& key, double&) override { add(key); }
   void vector(const Key& key, Vec3&) override { add(key); }
   void profile(const Key& key, std::vector<ProfilePoint>&) override { add(key); }
+  void numbers(const Key& key, std::vector<double>&) override { add(key); }
   void choice(const Key& key, const std::vector<Choice>& choices, std::size_t&) override {
     add(key);
     for (const Choice& choice : choices) keys.back().words.push_back(choice.word);

@@ -22,6 +22,7 @@ constexpr double n_nodes_allowed = 1e8;
 constexpr double n_copies_allowed = 1e4;
 constexpr double n_frames_allowed = 1e7;
 constexpr double n_steps_allowed = 1e12;
+constexpr double least_duration = 1e-6;  // over the start: less leaves too few digits for steps and frames
 
 void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems, std::vector<Problem>& warnings) {
@@ -99,6 +100,26 @@ void check_hydrodynamics(const HydrodynamicsConfig& hydrodynamics, const SceneRe
   reject("leaf_size", hydrodynamics.leaf_size);
 }
 
+void check_ends(const TimeConfig& time, const SceneReader& reader, std::vector<Problem>& problems) {
+  if (time.end < time.start)
+    reader.add(problems, "time.end",
+               fmt::format("time.end {} is before time.start {}", format_number(time.end), format_number(time.start)));
+  const double duration = time.end - time.start;
+  if (0.0 < duration && duration < least_duration * time.start)
+    reader.add(problems, "time.end",
+               fmt::format("time.end {} is so near to time.start {} that steps would be lost in rounding",
+                           format_number(time.end), format_number(time.start)));
+  for (std::size_t i = 0; i < time.earlier_ends.size(); ++i) {
+    const double end = time.earlier_ends[i];
+    const double next = i + 1 < time.earlier_ends.size() ? time.earlier_ends[i + 1] : time.end;
+    if (time.start <= end && end < next) continue;
+    reader.add(problems, "time.earlier_ends",
+               fmt::format("time.earlier_ends {} must grow from time.start {} and stay below time.end {}",
+                           format_numbers(time.earlier_ends), format_number(time.start), format_number(time.end)));
+    return;
+  }
+}
+
 void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<Problem>& problems) {
   if (time.method == TimeMethod::euler && time.step == 0.0) {
     reader.add(problems, "time.step", "time.step must be given and above 0: euler has no error control");
@@ -108,16 +129,18 @@ void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<P
         problems, "time.step",
         fmt::format("time.step {} is above time.max_step {}", format_number(time.step), format_number(time.max_step)));
   }
+  check_ends(time, reader, problems);
   const double shortest = time.step > 0.0 ? time.step : time.max_step;
-  if (shortest > 0.0 && time.end / shortest > n_steps_allowed) {
+  const double n_steps = shortest > 0.0 ? (time.end - time.start) / shortest : 0.0;
+  if (n_steps > n_steps_allowed) {
     reader.add(problems, "time.end",
-               fmt::format("time.end {} would take {:.2g} steps", format_number(time.end), time.end / shortest));
+               fmt::format("time.end {} would take {:.2g} steps", format_number(time.end), n_steps));
   }
 }
 
 void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
   if (scene.output.frame_interval == 0.0) return;  // the scene's own time sets it
-  const double n_frames = scene.time.end / scene.output.frame_interval;
+  const double n_frames = (scene.time.end - scene.time.start) / scene.output.frame_interval;
   if (n_frames <= n_frames_allowed) return;
   reader.add(problems, "output.frame_interval",
              fmt::format("output.frame_interval {} would make {:.2g} frames until time.end {}",

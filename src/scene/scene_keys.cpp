@@ -95,7 +95,16 @@ void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics
 void visit_time(KeyVisitor& visitor, TimeConfig& time) {
   visitor.begin_table({"time", false, "How time advances."});
   visitor.choice({"method", "", {}, "time integration"}, words_of<TimeMethod>(), time.method);
-  visitor.number({"end", "time", zero_or_more(), "time at which the run ends; it starts at 0"}, time.end);
+  visitor.number({"start", "time", zero_or_more(),
+                  "time at which the run starts; `skein run --from` sets it to that of the earlier run"},
+                 time.start);
+  visitor.number({"end", "time", zero_or_more(), "time at which the run ends"}, time.end);
+  visitor.numbers({"earlier_ends",
+                   "time",
+                   {0.0, largest_number, "0 to 64 times"},
+                   "where the run ended before `skein resume --set time.end=LATER` prolonged it, which writes them: "
+                   "steps end there, and frames are there"},
+                  time.earlier_ends);
   visitor.number({"step", "time", zero_or_more(), "fixed step; 0 leaves it to the error control; euler needs one"},
                  time.step);
   visitor.number(
@@ -110,6 +119,18 @@ void visit_time(KeyVisitor& visitor, TimeConfig& time) {
                   {0.0, std::numeric_limits<double>::infinity(), "0 or more, or inf"},
                   "largest step; 0: a quarter of the time scale; inf: as the tolerance allows"},
                  time.max_step);
+  visitor.end_table();
+}
+
+void visit_start(KeyVisitor& visitor, StartConfig& start) {
+  visitor.begin_table(
+      {"start", false,
+       "The state of another run that the run begins with. `skein run --from` writes these keys and puts "
+       "the positions of all nodes into start.checkpoint beside the scene; the time is time.start."});
+  visitor.text({"checksum", "", {}, "xxh3 of that file; empty: the fibers start as they are written"}, start.checksum);
+  visitor.text({"parent", "", {}, "folder of the other run, as it was named"}, start.parent);
+  visitor.text({"certificate", "", {}, "of the other run, as `skein verify` prints it"}, start.certificate);
+  visitor.integer({"step", "", {0.0, 1e18, "0 or more"}, "steps that the other run had taken"}, start.step);
   visitor.end_table();
 }
 
@@ -147,6 +168,7 @@ void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
   visit_gravity(visitor, scene.gravity);
   visit_hydrodynamics(visitor, scene.hydrodynamics);
   visit_time(visitor, scene.time);
+  visit_start(visitor, scene.start);
   visit_output(visitor, scene.output);
   visit_checkpoint(visitor, scene.checkpoint);
   visitor.end_table();
@@ -164,6 +186,12 @@ std::string format_profile(const std::vector<ProfilePoint>& profile) {
   for (const ProfilePoint& point : profile)
     list +=
         fmt::format("{}[{}, {}]", list.empty() ? "" : ", ", format_number(point.position), format_number(point.factor));
+  return "[" + list + "]";
+}
+
+std::string format_numbers(const std::vector<double>& numbers) {
+  std::string list;
+  for (const double number : numbers) list += (list.empty() ? "" : ", ") + format_number(number);
   return "[" + list + "]";
 }
 

@@ -46,6 +46,7 @@ class KeyVisitor {
   virtual void number(const Key& key, double& value) = 0;
   virtual void vector(const Key& key, Vec3& value) = 0;
   virtual void profile(const Key& key, std::vector<ProfilePoint>& value) = 0;
+  virtual void numbers(const Key& key, std::vector<double>& value) = 0;  ///< a list, which may be empty
 
   /// The enumerator that a word stands for.
   template <class Enum>
@@ -75,5 +76,8 @@ std::string format_vector(const Vec3& vector);
 
 /// "[[0.0, 1.0], [1.0, 1.0]]"
 std::string format_profile(const std::vector<ProfilePoint>& profile);
+
+/// "[12.0, 14.0]"
+std::string format_numbers(const std::vector<double>& numbers);
 
 }  // namespace skein

@@ -41,6 +41,7 @@ class KeyOwners : public KeyVisitor {
   void number(const Key& key, double&) override { compare(key); }
   void vector(const Key& key, Vec3&) override { compare(key); }
   void profile(const Key& key, std::vector<ProfilePoint>&) override { compare(key); }
+  void numbers(const Key& key, std::vector<double>&) override { compare(key); }
 
   std::vector<std::string> owners;
 
@@ -265,6 +266,19 @@ void SceneReader::profile(const Key& key, std::vector<ProfilePoint>& value) {
     points.push_back({to_number(pair.children[0]), to_number(pair.children[1])});
   }
   value = points;
+}
+
+void SceneReader::numbers(const Key& key, std::vector<double>& value) {
+  constexpr const char* wanted = "a list of up to 64 numbers";
+  const SceneValue* given = find_value(key, format_numbers(value));
+  if (given == nullptr) return;
+  if (!check_kind(*given, given->kind == SceneValue::Kind::list && given->n_children <= 64, key, wanted)) return;
+  std::vector<double> numbers;
+  for (const SceneValue& child : given->children) {
+    if (!check_kind(child, is_number(child), key, wanted) || !check_number(child, to_number(child), key)) return;
+    numbers.push_back(to_number(child));
+  }
+  value = std::move(numbers);
 }
 
 void SceneReader::add(std::vector<Problem>& list, const std::string& path, const std::string& message) const {

@@ -43,6 +43,7 @@ class SceneReader : public KeyVisitor {
   void number(const Key& key, double& value) override;
   void vector(const Key& key, Vec3& value) override;
   void profile(const Key& key, std::vector<ProfilePoint>& value) override;
+  void numbers(const Key& key, std::vector<double>& value) override;
 
   std::vector<Problem>& problems() { return problems_; }
 

@@ -33,6 +33,9 @@ class WritingVisitor : public KeyVisitor {
   void profile(const Key& key, std::vector<ProfilePoint>& value) override {
     write(key, key.range.text, format_profile(value));
   }
+  void numbers(const Key& key, std::vector<double>& value) override {
+    write(key, key.range.text, format_numbers(value));
+  }
 
   std::string written;
 
@@ -46,6 +49,10 @@ class PlainWriter : public WritingVisitor {
     if (table.name.empty()) return;
     const bool is_list = table.repeatable && table.n_instances > 1;
     written += is_list ? fmt::format("\n[[{}]]\n", table.name) : fmt::format("\n[{}]\n", table.name);
+  }
+  // An empty list is the default, and a scene of before the key was there is the same text.
+  void numbers(const Key& key, std::vector<double>& value) override {
+    if (!value.empty()) WritingVisitor::numbers(key, value);
   }
 
  protected:

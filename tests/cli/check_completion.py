@@ -116,6 +116,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.complete("resume result "), [])
         self.assertEqual(self.complete("run scene.toml --threads "), [])
         self.assertEqual(self.complete("run --quiet s"), ["scene.toml"])
+        self.assertEqual(self.complete("run --from r"), ["result"])
 
     def test_where_equal_signs_do_not_break_words(self):
         self.assertEqual(self.complete("run s --set time.method=r", breaks=" :"), ["time.method=rkc2", "time.method=rk4"])

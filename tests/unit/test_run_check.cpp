@@ -8,6 +8,7 @@
 #include <skein/io/run_leftovers.hpp>
 #include <skein/io/run_summary.hpp>
 #include <skein/io/trajectory_end.hpp>
+#include <skein/scene/earlier_ends.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "tests/unit/error_code.hpp"
@@ -175,6 +176,32 @@ TEST_F(WholeRun, AnotherSceneIsFound) {
   EXPECT_EQ(code_of([&] { find_resume_point(folder_, false); }, &message), ExitCode::damaged_data);
   EXPECT_NE(message.find("another scene"), std::string::npos) << message;
   EXPECT_EQ(CheckpointFolder::list_numbers(folder_), (std::vector<std::int64_t>{1, 2, 3}));
+}
+
+TEST_F(WholeRun, WhoseEndWasMovedIsStillItself) {
+  const std::string first = read_file(folder_.scene()), later = prolong_scene_text(first, 0.3);
+  write_file_atomically(folder_.scene(), later);
+  const RunCheck check = check_run(folder_.path());
+  EXPECT_TRUE(check.problems.empty()) << check.problems.front();
+  ASSERT_EQ(check.notes.size(), 1u);
+  EXPECT_NE(check.notes[0].find("its end was moved to 0.3"), std::string::npos) << check.notes[0];
+  EXPECT_EQ(read_run_summary(folder_.path()).certificate, check.checksum);
+  EXPECT_EQ(find_resume_point(folder_, false).path, checkpoint(3));
+  // Only by what resume writes.
+  for (const char* list : {"earlier_ends = [0.2]", "earlier_ends = [0.25, 0.26]"}) {
+    std::string edited = later;
+    edited.replace(edited.find("earlier_ends = [0.25]"), 21, list);
+    write_file_atomically(folder_.scene(), edited);
+    EXPECT_EQ(problem().empty(), std::string(list).find("0.25") != std::string::npos) << problem();
+  }
+}
+
+TEST_F(WholeRun, ReadersRenameNothing) {
+  flip_bit(checkpoint(3), 200);
+  const ResumePoint point = look_for_resume_point(folder_);
+  EXPECT_EQ(point.path, checkpoint(2));
+  ASSERT_EQ(point.rejected.size(), 1u);
+  EXPECT_TRUE(fs::exists(checkpoint(3)));
 }
 
 TEST_F(WholeRun, IsCheckedWithoutItsIndex) {

@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/checkpoint.hpp>
 #include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
@@ -128,6 +129,13 @@ TEST(RunFolder, TakesOverWhatARunLeftThatWasKilledBeforeItsScene) {
     EXPECT_EQ(names_in(run), (std::set<std::string>{"scene.toml", "segments"}));
     EXPECT_EQ(read_file(run / "scene.toml"), scene);
   }
+  for (const char* name : {"start.checkpoint", "start.checkpoint.partial"}) {
+    const fs::path run = scratch.path() / std::to_string(n++);
+    fs::create_directories(run / "segments");
+    write_file_atomically(run / name, checkpoint_magic.substr(0, 5));
+    RunFolder::create(run, scene, false);
+    EXPECT_EQ(names_in(run), (std::set<std::string>{"scene.toml", "segments"})) << name;
+  }
   const fs::path bare = scratch.path() / "bare";
   fs::create_directories(bare / "segments");
   RunFolder::create(bare, scene, false);
@@ -152,6 +160,7 @@ TEST(RunFolder, TakesNothingElseForSuchRemains) {
   refuses("segments/000000.h5", "frames");
   refuses("scene.toml.partial", "somebody's own");
   refuses("scene.toml.partial", nullptr);
+  refuses("start.checkpoint", "somebody's own");
   refuses("checkpoints", nullptr);
   // Nor a folder of segments that is elsewhere.
   const fs::path linked = scratch.path() / "linked";
@@ -159,6 +168,18 @@ TEST(RunFolder, TakesNothingElseForSuchRemains) {
   fs::create_directories(scratch.path() / "elsewhere");
   fs::create_directory_symlink(scratch.path() / "elsewhere", linked / "segments");
   EXPECT_EQ(code_of([&] { RunFolder::create(linked, scene, false); }), ExitCode::cannot_create);
+}
+
+TEST(RunFolder, HasTheStateThatItBeginsWith) {
+  const ScratchFolder scratch;
+  const fs::path run = scratch.path() / "run";
+  const RunFolder folder = RunFolder::create(run, "scene", false, {}, "a state");
+  EXPECT_EQ(read_file(folder.start()), "a state");
+  EXPECT_TRUE(folder.is_part(folder.start()));
+  RunFolder::create(run, "another", true, {}, "another state");
+  EXPECT_EQ(read_file(folder.start()), "another state");
+  RunFolder::create(run, "without", true);
+  EXPECT_EQ(names_in(run), (std::set<std::string>{"scene.toml", "segments"}));
 }
 
 TEST(RunFolder, KeepsTheEarlierRunWhereTheNewOneCannotBegin) {

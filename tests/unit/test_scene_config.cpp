@@ -110,10 +110,16 @@ void expect_same(const SceneConfig& a, const SceneConfig& b) {
   EXPECT_EQ(a.hydrodynamics.method, b.hydrodynamics.method);
   EXPECT_EQ(a.hydrodynamics.precision, b.hydrodynamics.precision);
   EXPECT_EQ(a.time.method, b.time.method);
+  EXPECT_EQ(a.time.start, b.time.start);
   EXPECT_EQ(a.time.end, b.time.end);
+  EXPECT_EQ(a.time.earlier_ends, b.time.earlier_ends);
   EXPECT_EQ(a.time.step, b.time.step);
   EXPECT_EQ(a.time.tolerance, b.time.tolerance);
   EXPECT_EQ(a.time.max_step, b.time.max_step);
+  EXPECT_EQ(a.start.checksum, b.start.checksum);
+  EXPECT_EQ(a.start.parent, b.start.parent);
+  EXPECT_EQ(a.start.certificate, b.start.certificate);
+  EXPECT_EQ(a.start.step, b.start.step);
   EXPECT_EQ(a.output.frame_interval, b.output.frame_interval);
   EXPECT_EQ(a.output.precision, b.output.precision);
 }
@@ -207,7 +213,8 @@ TEST(SceneFile, WrittenSceneShowsAllKeysOfTheDefaults) {
   for (const char c : write_commented_defaults()) {
     line += c;
     if (c != '\n') continue;
-    if (line[0] != '#') plain += line;
+    // Nor is the list there that only a run that was prolonged has.
+    if (line[0] != '#' && line != "earlier_ends = []\n") plain += line;
     line.clear();
   }
   EXPECT_EQ(plain.substr(plain.find("title")), write_scene(defaults));

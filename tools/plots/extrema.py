@@ -35,17 +35,16 @@ def draw(run, options):
         stride = -(-len(run.frame_times) // MAX_FRAMES)
         times = run.frame_times[::stride]
         curvatures = [file[f"fiber_{f}/signed_curvature"][::stride] for f in range(shown)]
-        highest = max(max(np.abs(c[np.isfinite(c)]).max(initial=0.0) for c in curvatures), 1e-12)
+        colours, bar = style.shown_range(np.concatenate([c.ravel() for c in curvatures]), signed=True)
         figure, panels = plt.subplots(1, shown, sharey=True, squeeze=False, layout="constrained",
                                       figsize=(4.4 if shown == 1 else style.WIDTH, 5.2))
         for f, (panel, curvature) in enumerate(zip(panels[0], curvatures)):
             length = run.lengths[f]
             edges = np.linspace(0.0, length, curvature.shape[1] + 1)
-            image = panel.pcolormesh(edges, cell_edges(times), curvature, cmap="RdBu_r", vmin=-highest, vmax=highest,
-                                     rasterized=True)
+            image = panel.pcolormesh(edges, cell_edges(times), curvature, cmap="RdBu_r", rasterized=True, **colours)
             draw_tracks(panel, file[f"fiber_{f}"], times[-1] - times[0], length)
             panel.set_xlim(0.0, length)
-    style.label_kymographs(figure, panels[0], image, "signed curvature", run.n_fibers)
+    style.label_kymographs(figure, panels[0], image, "signed curvature", run.n_fibers, **bar)
     figure.suptitle(style.describe_fibers(run, 55 if shown == 1 else 95)
                     + "\nlines: followed extrema; numbers: speeds ($L_0/T$)", fontsize=9)
     return figure

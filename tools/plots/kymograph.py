@@ -25,17 +25,15 @@ def draw(run, options):
     values = run.dataset("/observables/curvature/value")
     lengths = run.lengths
     curvatures = [values[: len(run.frame_times) : stride, run.fiber_sections(f)] for f in range(shown)]
-    finite = np.concatenate([c[np.isfinite(c)] for c in curvatures])
-    highest = finite.max() if finite.size and finite.max() > 0.0 else 1.0
+    colours, bar = style.shown_range(np.concatenate([c.ravel() for c in curvatures]))
 
     figure, panels = plt.subplots(1, shown, sharey=True, squeeze=False, layout="constrained",
                                   figsize=(4.2 if shown == 1 else style.WIDTH, 5.2))
     for fiber, (panel, curvature) in enumerate(zip(panels[0], curvatures)):
         # Sections divide the length evenly.
         arclength = np.linspace(0.0, lengths[fiber], curvature.shape[1] + 1)
-        image = panel.pcolormesh(arclength, cell_edges(times), curvature, cmap="inferno", vmin=0.0, vmax=highest,
-                                 rasterized=True)
+        image = panel.pcolormesh(arclength, cell_edges(times), curvature, cmap="inferno", rasterized=True, **colours)
         panel.set_facecolor(style.FAINT)  # shows through where a value is not finite
-    style.label_kymographs(figure, panels[0], image, "curvature", run.n_fibers)
+    style.label_kymographs(figure, panels[0], image, "curvature", run.n_fibers, **bar)
     figure.suptitle(style.describe_fibers(run, 55 if shown == 1 else 95), fontsize=9)
     return figure

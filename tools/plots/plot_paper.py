@@ -147,12 +147,13 @@ def draw_curvature(runs):
         with open_diagnostics(run) as file:
             curvature = np.abs(file["fiber_0/signed_curvature"][::stride])
         edges = np.linspace(0.0, run.lengths[0], curvature.shape[1] + 1)
-        image = panel.pcolormesh(edges, cell_edges(run.frame_times[::stride]), curvature, cmap="inferno", vmin=0.0,
-                                 rasterized=True)
+        colours, extent = style.shown_range(curvature)
+        image = panel.pcolormesh(edges, cell_edges(run.frame_times[::stride]), curvature, cmap="inferno", rasterized=True,
+                                 **colours)
         panel.set_title(f"({'abcde'[i]})  $L = {run.lengths[0]:.3f}$")
         panel.set_xlabel("arclength ($L_0$)")
         panel.xaxis.set_major_locator(plt.MaxNLocator(3))
-        bar = figure.colorbar(image, ax=panel, fraction=0.08, pad=0.03)
+        bar = figure.colorbar(image, ax=panel, fraction=0.08, pad=0.03, **extent)
         bar.ax.tick_params(labelsize=7)
         if i == len(names) - 1:
             bar.set_label("curvature ($1/L_0$)")

@@ -102,7 +102,22 @@ def label_fibers(panel, shown, n_fibers):
         panel.legend(title=title, ncol=columns, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0))
 
 
-def label_kymographs(figure, panels, image, quantity, n_fibers):
+def shown_range(values, signed=False):
+    """Limits of colours, and which ends of the bar go on beyond them, as keywords of pcolormesh and of colorbar.
+
+    A kink of a few sections for a moment is ten times as sharp as the hooks are, which would then be black.
+    """
+    sizes = np.abs(values[np.isfinite(values)])
+    if not sizes.size or not sizes.max() > 0.0:
+        return {"vmin": -1.0 if signed else 0.0, "vmax": 1.0}, {"extend": "neither"}
+    highest, usual = sizes.max(), np.percentile(sizes, 99.8)
+    cut = 0.0 < usual < 0.5 * highest
+    limit = usual if cut else highest
+    return ({"vmin": -limit if signed else 0.0, "vmax": limit},
+            {"extend": ("both" if signed else "max") if cut else "neither"})
+
+
+def label_kymographs(figure, panels, image, quantity, n_fibers, **bar):
     """Labels panels of arclength and time, one for each fiber shown, and their common colours."""
     shown = len(panels)
     for fiber, panel in enumerate(panels):
@@ -111,7 +126,7 @@ def label_kymographs(figure, panels, image, quantity, n_fibers):
         if n_fibers > 1:
             panel.set_title(f"fiber {fiber}" + (f" of {n_fibers}" if shown < n_fibers else ""))
     panels[0].set_ylabel(TIME_LABEL)
-    figure.colorbar(image, ax=panels, label=f"{quantity} ($1/L_0$)", fraction=0.08, pad=0.03)
+    figure.colorbar(image, ax=panels, label=f"{quantity} ($1/L_0$)", fraction=0.08, pad=0.03, **bar)
 
 
 def save(figure, folder, name, file_format):

@@ -29,6 +29,9 @@ class Checkpoint {
   std::map<std::string, Value> values_;
 };
 
+/// With what every checkpoint file begins.
+inline constexpr std::string_view checkpoint_magic = "\x89SKEIN\r\n";
+
 /// The bytes of a checkpoint file; see src/io/checkpoint.cpp for their order.
 std::string encode_checkpoint(const Checkpoint& checkpoint);
 

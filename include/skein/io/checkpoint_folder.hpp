@@ -38,7 +38,7 @@ class CheckpointFolder {
 
 /// Where a run can go on.
 struct ResumePoint {
-  std::optional<Checkpoint> checkpoint;  ///< none: the run starts at t = 0
+  std::optional<Checkpoint> checkpoint;  ///< none: the run starts at its beginning
   std::filesystem::path path;
   std::vector<std::string> rejected;  ///< what is wrong with each newer one, newest first, and what became of its file
 };
@@ -46,13 +46,17 @@ struct ResumePoint {
 /// The newest checkpoint that can be read, is whole, belongs to the folder's scene, and whose frames are all there.
 /// Newer ones that are not are renamed to `<name>.damaged`.
 ///
-/// Without a good one a run starts at t = 0 only if it has no frames, or if they may be dropped.
+/// Without a good one a run starts at its beginning only if it has no frames, or if they may be dropped.
 /// @param from_start  drop the frames of a run that no checkpoint goes on from
 /// @throws Error(damaged_data) if there is no good one but frames or other checkpoints, naming them all, or if the
 /// scene
 ///         was changed; Error(io_error) instead where one could not be read, or a folder not be listed: nothing is lost
 ///         then; Error(usage) if there is a good one and from_start
 ResumePoint find_resume_point(const RunFolder& folder, bool from_start);
+
+/// The same point, for readers: nothing is renamed, and there is none where no checkpoint can be found.
+/// @throws as find_resume_point
+ResumePoint look_for_resume_point(const RunFolder& folder);
 
 /// @throws Error(damaged_data), Error(io_error) saying why a checkpoint cannot serve a run folder
 void check_checkpoint(const RunFolder& folder, const Checkpoint& checkpoint);

@@ -14,6 +14,7 @@ struct RunSummary {
   std::int64_t frames = 0;
   std::int64_t steps = 0;  ///< recorded, accepted ones
   std::int64_t segments = 0;
+  std::string certificate;                   ///< end of the chain of checksums so far
   std::vector<std::int64_t> segment_frames;  ///< [segments], frames of each
   std::string chain;                         ///< checksums of all segments, 16 digits each; empty in older runs
   double last_time = 0.0;                    ///< of the last frame; NaN where there is none

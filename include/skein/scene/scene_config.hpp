@@ -134,11 +134,23 @@ struct HydrodynamicsConfig {
 /// Zeros stand for what goes with the scene's own time, whatever its units; see resolve_times.
 struct TimeConfig {
   TimeMethod method = TimeMethod::rkc2;
-  double end = 12.0;       ///< time
-  double step = 0.0;       ///< time; 0 lets the error control choose; euler needs one
-  double tolerance = 0.0;  ///< error per unit time, as a fraction of the longest fiber's length, 1 / time
-  double max_step = 0.0;   ///< time; may be infinite
+  double end = 12.0;                 ///< time
+  double step = 0.0;                 ///< time; 0 lets the error control choose; euler needs one
+  double tolerance = 0.0;            ///< error per unit time, as a fraction of the longest fiber's length, 1 / time
+  double max_step = 0.0;             ///< time; may be infinite
+  double start = 0.0;                ///< time
+  std::vector<double> earlier_ends;  ///< growing, below the end: where the run ended before it was prolonged
   friend bool operator==(const TimeConfig&, const TimeConfig&) = default;
+};
+
+/// Another run's state, with which a run begins in place of the fibers as written; its time is time.start. The
+/// positions are in the file start.checkpoint beside the scene.
+struct StartConfig {
+  std::string checksum;     ///< of that file; empty: the run begins with the fibers as written
+  std::string parent;       ///< the run's folder, as it was named
+  std::string certificate;  ///< end of its chain of checksums
+  std::int64_t step = 0;    ///< accepted steps of that run up to this state
+  friend bool operator==(const StartConfig&, const StartConfig&) = default;
 };
 
 struct OutputConfig {
@@ -169,6 +181,7 @@ struct SceneConfig {
   TimeConfig time;
   OutputConfig output;
   CheckpointConfig checkpoint;
+  StartConfig start;
   friend bool operator==(const SceneConfig&, const SceneConfig&) = default;
 };
 
