@@ -11,6 +11,7 @@
 #include "runs/child_run.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
+#include "studies/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -30,6 +31,7 @@ struct RunOptions {
   std::string from;   ///< earlier run, and @time; empty: none
   std::filesystem::path folder;
   std::vector<std::string> overrides;                             ///< "key=value"
+  std::optional<double> plan;                                     ///< tolerance; none: the scene as it is
   bool overwrite = false;                                         ///< replace an earlier run in the folder
   int threads = 0;                                                ///< of the host; 0 leaves it to the environment
   double max_walltime = std::numeric_limits<double>::infinity();  ///< seconds
@@ -64,13 +66,28 @@ NewRun make_run(const RunOptions& options) {
   return run;
 }
 
+/// The scene as the cheapest adequate model has it.
+void plan_scene(PlacedScene& placed, const double tolerance, const bool quiet) {
+  PlanRequest request;
+  request.tolerance = tolerance;
+  Plan plan = make_plan(placed.config, request, [&](const std::string& words) {
+    if (!quiet) print_note(words);
+  });
+  if (!quiet) print_note(describe_plan(plan, request));
+  if (plan.chosen < 0)
+    throw Error(ExitCode::scene_error, plan.reason + "; run the scene without --plan, or ask for less.");
+  placed.config = plan.candidates[plan.chosen].scene;
+  placed.text = write_readable_scene(placed.config);
+}
+
 int run_scene(const RunOptions& options) {
-  const NewRun run = make_run(options);
-  const PlacedScene& placed = run.placed;
+  NewRun run = make_run(options);
+  PlacedScene& placed = run.placed;
   if (!run.what_happened.empty()) print_warning(run.what_happened);
   if (!options.quiet && !placed.warnings.empty()) print_warning(describe_problems(placed.warnings));
 
   const Runtime runtime(options.threads);
+  if (options.plan) plan_scene(placed, *options.plan, options.quiet);
   if (options.dry_run) {
     print_result(describe_dry_run(placed.config) + "\n");
     return 0;
@@ -94,6 +111,10 @@ Verb make_run_verb() {
                      "Begin with the state that an earlier run has reached, or with its frame at this time"),
        make_argument("-o,--output", &options->folder, "DIR", "Run folder to make").require(),
        make_overrides_option(&options->overrides),
+       make_argument("--plan", &options->plan, "TOLERANCE",
+                     "Run the cheapest model whose answers stay within this, as 'skein plan' finds it")
+           .within(1e-4, 0.5)
+           .exclude("--from"),
        make_flag("--overwrite", &options->overwrite, "Replace an earlier run in the folder"),
        make_threads_option(&options->threads), make_walltime_option(&options->max_walltime),
        make_flag("--dry-run", &options->dry_run, "Say what the run would take, write nothing"),
@@ -102,6 +123,7 @@ Verb make_run_verb() {
       "  skein run configs/tumbling.toml -o tumbling\n"
       "  skein run configs/tumbling.toml -o longer --set fiber.sections=113 --set time.end=16.0\n"
       "  skein run configs/tumbling.toml -o night --max-walltime 8h --threads 2\n"
+      "  skein run configs/lagrone2019_L0523.toml -o quick --plan 0.03\n"
       "  skein run --from tumbling -o softer --set time.end=24.0 --set fiber.spring_stiffness=0.005\n"
       "  skein run --from tumbling@5.45 other.toml -o other\n"
       "With --from time goes on at the time of the earlier run, whose scene it is, with these changes, unless another "

@@ -15,6 +15,8 @@ Verb make_info_verb();
 Verb make_analyze_verb();
 Verb make_reproduce_verb();
 Verb make_phases_verb();
+Verb make_bench_verb();
+Verb make_plan_verb();
 Verb make_field_verb();
 Verb make_plot_verb();
 

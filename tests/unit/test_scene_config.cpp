@@ -51,6 +51,7 @@ SceneConfig make_unusual_scene() {
   scene.fibers[1].stiffness_between_sections = 7.0 / 3.0;
   scene.fibers[1].reach_along = 3;
   scene.fibers[1].reach_around = 4;
+  scene.fibers[1].spacing = 2e-3 / 3.0;
   scene.placement = {
       PlacementKind::grid, {0.1, 1.0 / 3.0, -7.0}, {2.0, 3.0, 4.0}, {0.3, 1.0 / 7.0, 2.0}, 7, {3.0, 4.0, 1.0 / 3.0},
       1e-3 / 3.0,          Orientation::random};

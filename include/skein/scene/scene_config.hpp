@@ -51,7 +51,6 @@ struct FiberConfig {
   int sections = 80;                 ///< N_f, >= 2
   int nodes_per_section = 18;        ///< N_c, >= 3
   double radius = 0.005;             ///< R, length
-  double spacing = 0.0;              ///< ds between sections, length; 0: the chord between neighbours on a section
   double spring_stiffness = 0.0112;  ///< k, force
   double blob = 0.00225;             ///< regularization length eps of this fiber's nodes
   Vec3 center{0.0, 0.0, 0.0};        ///< length
@@ -68,6 +67,7 @@ struct FiberConfig {
   double stiffness_between_sections = 1.0;                              ///< factor of spring_stiffness
   int reach_along = 1;                                                  ///< springs join sections up to this far apart
   int reach_around = 0;  ///< ... and nodes whose places on their sections differ by up to this; 0: all
+  double spacing = 0.0;  ///< ds between sections, length; 0: the chord between neighbours on a section
   friend bool operator==(const FiberConfig&, const FiberConfig&) = default;
 };
 

@@ -1,0 +1,72 @@
+#include <skein/arrays/runtime.hpp>
+#include <skein/core/error.hpp>
+
+#include "cli/common_arguments.hpp"
+#include "cli/plot_scripts.hpp"
+#include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
+#include "studies/ladder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace skein {
+namespace {
+
+struct BenchOptions {
+  std::string what;
+  std::filesystem::path folder = "bench";
+  LadderStudy ladder;
+  int threads = 0;
+  bool no_plots = false;
+};
+
+void print_point(const LadderPoint& point) {
+  std::string errors;
+  for (const AnswerError& error : point.errors)
+    errors += fmt::format("  {} {:.2g} %", name_of(error.question), 100.0 * error.error);
+  print_result(fmt::format("{:<8.3g} {:>5} {:>7} {:>10.3g} {:>9} {}\n", point.length, point.nodes_per_section,
+                           point.n_nodes, point.seconds, point.evaluations,
+                           errors.empty() ? "  the reference" : errors));
+  std::fflush(stdout);
+}
+
+int bench_ladder(const BenchOptions& options) {
+  const Runtime runtime(options.threads);
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);
+  if (error)
+    throw Error(ExitCode::cannot_create,
+                fmt::format("cannot make the folder '{}': {}", options.folder.string(), error.message()));
+  print_result(fmt::format("# {}\n{:<8} {:>5} {:>7} {:>10} {:>9}   {}\n", describe_backend(), "length", "nodes",
+                           "in all", "seconds", "evaluations", "errors against the first"));
+  write_ladder(options.folder / "ladder.csv", measure_ladder(options.ladder, print_point));
+  if (options.no_plots) return 0;
+  return run_plot_script("plot_ladder.py", {std::filesystem::absolute(options.folder).string(), "--to-stderr"});
+}
+
+}  // namespace
+
+Verb make_bench_verb() {
+  const auto options = std::make_shared<BenchOptions>();
+  return {"bench",
+          "Measure what this machine and this program can do",
+          {make_argument("what", &options->what, "", "ladder: tubes of 4 to 24 nodes on a section, errors against cost")
+               .among({"ladder"})
+               .require(),
+           make_argument("-o,--output", &options->folder, "FOLDER", "Folder for table and picture"),
+           make_argument("--lengths", &options->ladder.lengths, "L,...", "Of the paper's fibers"),
+           make_threads_option(&options->threads), make_flag("--no-plots", &options->no_plots, "Draw nothing")},
+          "Examples:\n"
+          "  skein bench ladder\n"
+          "  skein bench ladder -o short --lengths 0.139,0.196\n"
+          "The ladder of all four lengths takes half an hour on two cores, of the first three a third of that.",
+          [options] { return bench_ladder(*options); }};
+}
+
+}  // namespace skein

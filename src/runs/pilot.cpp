@@ -1,0 +1,76 @@
+#include "runs/pilot.hpp"
+
+#include <skein/core/error.hpp>
+#include <skein/core/stopwatch.hpp>
+#include <skein/dynamics/make_integrator.hpp>
+#include <skein/physics/flow_summary.hpp>
+#include <skein/physics/scene_times.hpp>
+
+#include "runs/evaluation_time.hpp"
+#include "runs/observables.hpp"
+#include "runs/run_analyzer.hpp"
+
+#include <memory>
+
+namespace skein {
+namespace {
+
+State make_start(const SceneConfig& scene, const Physics& physics) {
+  return {0.0, 0, to_device("skein::Pilot::position", make_surface_nodes(physics.fibers, scene.seed))};
+}
+
+}  // namespace
+
+Pilot run_pilot(const SceneConfig& asked, const int n_intervals, const double max_seconds) {
+  SKEIN_REQUIRE(n_intervals > 0, "a pilot has frames after its start");
+  const SceneConfig scene = resolve_times(asked);
+  Physics physics = make_physics(scene);
+  FiberDynamics dynamics(physics);
+  State state = make_start(scene, physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
+  RunAnalyzer analyzer(
+      scene, physics, [&](const Vec3 position) { return compute_typical_gradient(scene.flows, position); },
+      /*with_forces=*/false);
+  Pilot pilot;
+  const auto add_frame = [&](const double time, const ConstVectors& position) {
+    const Frame frame = make_frame(physics, state.step, time, position);
+    analyzer.add(frame);
+    pilot.centreline.push_back(frame.centreline);
+  };
+  const auto start = WallClock::now();
+  const Vectors between("skein::Pilot::between", state.position.extent(0));
+  add_frame(0.0, state.position);
+  try {
+    for (int i = 1; i <= n_intervals && !pilot.is_late; ++i) {
+      const double due = i == n_intervals ? scene.time.end : scene.time.end * i / n_intervals;
+      while (state.time < due && !pilot.is_late) {
+        integrator->advance(state, scene.time.end);
+        pilot.is_late = seconds_since(start) > max_seconds && state.time < scene.time.end;
+      }
+      if (state.time < due) break;
+      if (state.time > due) integrator->interpolate(due, between);
+      add_frame(due, state.time > due ? ConstVectors(between) : ConstVectors(state.position));
+    }
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::numerical) throw;
+    pilot.failure = error.what();
+  }
+  pilot.seconds = seconds_since(start);
+  pilot.steps = state.step;
+  pilot.evaluations = dynamics.evaluations();
+  pilot.analysis = analyzer.take();
+  return pilot;
+}
+
+EvaluationEstimate estimate_evaluation(const SceneConfig& asked) {
+  const SceneConfig scene = resolve_times(asked);
+  Physics physics = make_physics(scene);
+  FiberDynamics dynamics(physics);
+  const State state = make_start(scene, physics);
+  EvaluationEstimate estimate;
+  estimate.seconds = time_evaluation(dynamics, state.position).seconds;
+  estimate.spectral_radius = find_spectral_radius(scene, dynamics, 0.0, state.position);
+  return estimate;
+}
+
+}  // namespace skein

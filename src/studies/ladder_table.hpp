@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+namespace skein {
+
+/// Errors of tubes of so many nodes on a section against those of 24, the paper's fibers in shear; by
+/// `skein bench ladder`, whose table is perf/ladder.csv.
+struct LadderRow {
+  int nodes_per_section;
+  double error;    ///< the largest of shape (over the length), half period, hook radius and snaking speed
+  double seconds;  ///< over that of 18 nodes, of one run
+};
+const std::vector<LadderRow>& list_ladder();
+
+/// The error of a rung by that table; between its rows the coarser one's, and beyond them the ends'.
+double find_ladder_error(int nodes_per_section);
+
+}  // namespace skein
