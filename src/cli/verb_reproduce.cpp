@@ -79,30 +79,30 @@ std::string describe_figures() {
 Verb make_reproduce_verb() {
   const auto options = std::make_shared<ReproduceOptions>();
   Reproduction& request = options->request;
-  return {
-      "reproduce",
-      "Run, measure and draw what a paper shows, and compare",
-      {make_argument("paper", &options->paper, "", "Which paper").require().among({"lagrone2019"}),
-       make_argument("figure", &options->figure, "", "Which figure; without: " + list_quick_names())
-           .among(list_names()),
-       make_argument("-o,--output", &request.folder, "FOLDER", "Folder for runs, pictures and the table"),
-       make_argument("--nodes-per-section", &request.nodes_per_section, "",
-                     "Of all runs, the paper has 18; without: 18, and 6 for L = 2.28. The bending rigidity and what "
-                     "the fiber is to the fluid stay: 6 takes a twentieth, half periods change by 1 %")
-           .within(3, paper_nodes_per_section),
-       make_threads_option(&options->threads), make_walltime_option(&request.max_walltime),
-       make_flag("--json", &options->json, "The table as JSON"),
-       make_flag("--no-runs", &request.only_compare, "Compare what is there"),
-       make_flag("--no-plots", &options->no_plots, "Draw nothing"), make_quiet_flag(&options->quiet)},
-      "Figures of LaGrone, Cortez, Yan, Fauci 2019:\n" + describe_figures() +
-          "Examples:\n"
-          "  skein reproduce lagrone2019\n"
-          "  skein reproduce lagrone2019 --nodes-per-section 9 -o quick\n"
-          "  skein reproduce lagrone2019 figure5 --max-walltime 2h\n"
-          "Runs that are done are not run again, unfinished ones go on. "
-          "The exit code is 0, 75 if a run was stopped,\n"
-          "76 if a row differs by more than its tolerance.",
-      [options] { return reproduce(*options); }};
+  return {"reproduce",
+          "Run, measure and draw what a paper shows, and compare",
+          {make_argument("paper", &options->paper, "", "Which paper").require().among({"lagrone2019"}),
+           make_argument("figure", &options->figure, "", "Which figure; without: " + list_quick_names())
+               .among(list_names()),
+           make_argument("-o,--output", &request.folder, "FOLDER", "Folder for runs, pictures and the table"),
+           make_argument(
+               "--nodes-per-section", &request.nodes_per_section, "",
+               "Of all runs, the paper has 18; without: 18, 9 for L = 0.931, 6 for 2.28. The bending rigidity and what "
+               "the fiber is to the fluid stay: 6 takes a twentieth, half periods change by 1 %")
+               .within(3, paper_nodes_per_section),
+           make_threads_option(&options->threads), make_walltime_option(&request.max_walltime),
+           make_flag("--json", &options->json, "The table as JSON"),
+           make_flag("--no-runs", &request.only_compare, "Compare what is there"),
+           make_flag("--no-plots", &options->no_plots, "Draw nothing"), make_quiet_flag(&options->quiet)},
+          "Figures of LaGrone, Cortez, Yan, Fauci 2019:\n" + describe_figures() +
+              "Examples:\n"
+              "  skein reproduce lagrone2019\n"
+              "  skein reproduce lagrone2019 --nodes-per-section 9 -o quick\n"
+              "  skein reproduce lagrone2019 figure5 --max-walltime 2h\n"
+              "Runs that are done are not run again, unfinished ones go on. "
+              "The exit code is 0, 75 if a run was stopped,\n"
+              "76 if a row differs by more than its tolerance.",
+          [options] { return reproduce(*options); }};
 }
 
 }  // namespace skein

@@ -24,7 +24,8 @@ struct PaperFiber {
   double elasto_viscous_number;                     ///< as printed
   std::vector<Figure> figures;                      ///< that need its run
   int nodes_per_section = paper_nodes_per_section;  ///< of its run, unless others are asked for
-  double start_noise = 0.0;                         ///< of its run, over the length
+  bool keeps_plane = false;                         ///< as long as nothing but rounding brings it out
+  double start_noise = 0.0;                         ///< of its run, over the length: what is to bring it out
 };
 const std::vector<PaperFiber>& list_paper_fibers();
 
