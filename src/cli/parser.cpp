@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -50,24 +51,36 @@ class AddArgument {
     return add(texts)->allow_extra_args(false)->check(refuse_empty);
   }
   CLI::Option* operator()(std::vector<double>* numbers) const {
-    CLI::Option* option = add(numbers)->delimiter(',');
+    CLI::Option* option = limit<double>(add(numbers)->delimiter(','));
     return argument_.count > 0 ? option->expected(argument_.count) : option;
   }
   template <class Value>
   CLI::Option* operator()(Value* value) const {
     CLI::Option* option = add(value);
     if constexpr (is_text<Value>) option->check(refuse_empty);
-    if constexpr (std::is_arithmetic_v<Value>) {
-      if (const auto& bounds = argument_.bounds)
-        option->check(CLI::Range(static_cast<Value>(bounds->first), static_cast<Value>(bounds->second)));
-    }
+    if constexpr (std::is_arithmetic_v<Value>) return limit<Value>(option);
     return option;
   }
+  CLI::Option* operator()(std::optional<double>* value) const { return limit<double>(add(value)); }
+  CLI::Option* operator()(std::optional<std::int64_t>* value) const { return limit<std::int64_t>(add(value)); }
 
  private:
   template <class Value>
   CLI::Option* add(Value* value) const {
     return verb_.add_option(argument_.names, *value, argument_.meaning);
+  }
+
+  /// Refuses what is not within the argument's bounds; not a number is within none.
+  template <class Number>
+  CLI::Option* limit(CLI::Option* option) const {
+    if (!argument_.bounds) return option;
+    const CLI::Range range(static_cast<Number>(argument_.bounds->first), static_cast<Number>(argument_.bounds->second));
+    const auto refuse_nan = [](const std::string& text) {
+      Number number{};
+      return CLI::detail::lexical_cast(text, number) && number != number ? "not a number is no value" : "";
+    };
+    option->check(refuse_nan);
+    return option->check(range);
   }
 
   CLI::App& verb_;

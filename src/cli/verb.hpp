@@ -29,7 +29,7 @@ struct Argument {
   std::string type_name;  ///< for the help text, and what shells complete (completion.cpp); empty: what the target says
   std::string meaning;
   bool is_required = false;
-  std::optional<std::pair<double, double>> bounds;  ///< of an int or a double, both within
+  std::optional<std::pair<double, double>> bounds;  ///< of a number, and of each in a list; both are within
   std::vector<std::string> words;                   ///< the only ones; empty: any
   int count = 0;                                    ///< of the numbers in a list; 0: any
   std::string excluded;                             ///< the option that cannot stand beside it

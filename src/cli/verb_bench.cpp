@@ -60,7 +60,7 @@ Verb make_bench_verb() {
                .among({"ladder"})
                .require(),
            make_argument("-o,--output", &options->folder, "FOLDER", "Folder for table and picture"),
-           make_argument("--lengths", &options->ladder.lengths, "L,...", "Of the paper's fibers"),
+           make_argument("--lengths", &options->ladder.lengths, "L,...", "Of the paper's fibers").within(0.02, 3.0),
            make_threads_option(&options->threads), make_flag("--no-plots", &options->no_plots, "Draw nothing")},
           "Examples:\n"
           "  skein bench ladder\n"

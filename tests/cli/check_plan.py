@@ -1,0 +1,99 @@
+"""`skein plan` and `run --plan`: the planned run answers as the scene's own does, at a fraction of its cost.
+
+Called as check_plan.py PROGRAM SOURCES.
+"""
+
+import json
+import re
+
+from cli_case import DONE, USAGE, InFreshFolder, main, skein
+
+NO_RUNG = 76
+# A half turn of the paper's shortest fiber, with nine nodes on a section.
+SCENE = """title = "planned"
+[flow]
+rate = 2.5
+[fiber]
+sections = 41
+nodes_per_section = 9
+spring_stiffness = 0.0245
+blob = 0.0024
+[time]
+end = 7.0
+[output]
+frame_interval = 0.05
+"""
+
+
+class Planning(InFreshFolder):
+    def setUp(self):
+        super().setUp()
+        self.write(SCENE)
+
+    def plan(self, *words):
+        result = skein("plan", "scene.toml", "--json", "-q", *words, cwd=self.folder)
+        return result.returncode, json.loads(result.stdout)
+
+    def half_turn(self, name):
+        """Time at which the fiber stands across the flow."""
+        self.expect(DONE, "analyze", name, "--no-forces")
+        rows = (self.folder / name / "analysis/diagnostics.csv").read_text().splitlines()
+        angle = rows[0].split(",").index("angle [degree]")
+        before = None
+        for row in rows[1:]:
+            cells = row.split(",")
+            now = float(cells[0]), float(cells[angle])
+            if before and before[1] < 90.0 <= now[1]:
+                return before[0] + (now[0] - before[0]) * (90.0 - before[1]) / (now[1] - before[1])
+            before = now
+        self.fail("the fiber does not turn")
+
+    def test_the_planned_run_answers_within_the_tolerance(self):
+        code, plan = self.plan("--tolerance", "0.03", "-o", "planned.toml")
+        self.assertEqual(code, DONE, plan)
+        self.assertLess(plan["chosen"], 9)
+        chosen = next(c for c in plan["candidates"] if c["nodes_per_section"] == plan["chosen"])
+        self.assertLessEqual(chosen["error"], 0.03)
+        self.assertEqual(chosen["verdict"], "chosen")
+        self.expect(DONE, "run", "scene.toml", "-o", "whole", "-q")
+        self.expect(DONE, "run", "planned.toml", "-o", "planned", "-q")
+        self.expect(DONE, "verify", "planned")
+        self.assertAlmostEqual(self.half_turn("planned") / self.half_turn("whole"), 1.0, delta=0.03)
+
+    def test_run_plans_and_runs(self):
+        self.expect(DONE, "run", "scene.toml", "-o", "quick", "-q", "--plan", "0.1", "--set", "time.end=2.0")
+        self.expect(DONE, "verify", "quick")
+        nodes = int(re.search(r"nodes_per_section = (\d+)", (self.folder / "quick/scene.toml").read_text()).group(1))
+        self.assertLess(nodes, 9)
+
+    def test_a_tolerance_that_no_rung_meets_is_told_with_what_fails(self):
+        code, plan = self.plan("--tolerance", "0.0001", "--set", "time.end=2.0")
+        self.assertEqual(code, NO_RUNG)
+        self.assertIsNone(plan["chosen"])
+        self.assertIn("shape", plan["reason"])
+
+    def test_no_time_for_pilots_is_told(self):
+        code, plan = self.plan("--within", "0.000001")
+        self.assertEqual(code, NO_RUNG)
+        self.assertIn("more time", plan["reason"])
+
+    def test_what_nobody_can_answer_is_refused(self):
+        result = self.expect(USAGE, "plan", "scene.toml", "--for", "shape,colour")
+        self.assertIn("'colour'", result.stderr)
+        self.assertIn("half_period", result.stderr)
+        self.expect(USAGE, "plan", "scene.toml", "--tolerance", "0")
+        for number in ("nan", "-nan", "inf", "0", "-1", "1e-5", "x"):
+            self.expect(USAGE, "run", "scene.toml", "-o", "x", "--plan", number)
+            self.expect(USAGE, "plan", "scene.toml", "--tolerance", number)
+            self.expect(USAGE, "phases", "-o", "x", "--from", number)
+        self.expect(USAGE, "bench", "ladder", "-o", "x", "--lengths", "0.139,nan")
+        self.assertFalse((self.folder / "x").exists())
+
+    def test_nothing_is_left_behind(self):
+        before = self.snapshot(self.folder)
+        self.plan("--tolerance", "0.1", "--set", "time.end=1.0")
+        self.assertEqual(self.snapshot(self.folder), before)
+
+
+if __name__ == "__main__":
+    main()
