@@ -5,7 +5,9 @@
 #include "cli/plot_scripts.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "runs/placed_scene.hpp"
 #include "studies/ladder.hpp"
+#include "studies/plan_check.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +16,8 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -22,6 +26,8 @@ struct BenchOptions {
   std::string what;
   std::filesystem::path folder = "bench";
   LadderStudy ladder;
+  std::vector<std::string> scenes;
+  std::vector<double> tolerances{0.1, 0.03, 0.01};
   int threads = 0;
   bool no_plots = false;
 };
@@ -50,23 +56,53 @@ int bench_ladder(const BenchOptions& options) {
   return run_plot_script("plot_ladder.py", {std::filesystem::absolute(options.folder).string(), "--to-stderr"});
 }
 
+std::string in_percent(const double error) {
+  return std::isfinite(error) ? fmt::format("{:.2g} %", 100.0 * error) : std::string("none");
+}
+
+int bench_plans(const BenchOptions& options) {
+  if (options.scenes.empty()) throw Error(ExitCode::usage, "bench plan needs scenes: --scene FILE, once for each");
+  const Runtime runtime(options.threads);
+  print_result(fmt::format("# {}\n{:<26} {:>9} {:>6} {:>10} {:>10} {:>9} {:>9}\n", describe_backend(), "scene",
+                           "tolerance", "nodes", "predicted", "measured", "seconds", "cheapest"));
+  for (const std::string& file : options.scenes) {
+    const PlacedScene placed = read_placed_scene(file, {});
+    for (const PlanCheck& check : check_plans(placed.config, {}, options.tolerances, [](const std::string&) {}))
+      print_result(fmt::format("{:<26} {:>9} {:>6} {:>10} {:>10} {:>9.3g} {:>9.3g}\n",
+                               std::filesystem::path(file).stem().string(), in_percent(check.tolerance), check.chosen,
+                               in_percent(check.predicted_error), in_percent(check.measured_error), check.seconds,
+                               check.cheapest_seconds));
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+int bench(const BenchOptions& options) {
+  return options.what == "ladder" ? bench_ladder(options) : bench_plans(options);
+}
+
 }  // namespace
 
 Verb make_bench_verb() {
   const auto options = std::make_shared<BenchOptions>();
   return {"bench",
           "Measure what this machine and this program can do",
-          {make_argument("what", &options->what, "", "ladder: tubes of 4 to 24 nodes on a section, errors against cost")
-               .among({"ladder"})
+          {make_argument("what", &options->what, "",
+                         "ladder: tubes of 4 to 24 nodes on a section, errors against cost; plan: what "
+                         "'skein plan' promises of scenes, and what comes of it")
+               .among({"ladder", "plan"})
                .require(),
            make_argument("-o,--output", &options->folder, "FOLDER", "Folder for table and picture"),
            make_argument("--lengths", &options->ladder.lengths, "L,...", "Of the paper's fibers").within(0.02, 3.0),
+           make_argument("--scene", &options->scenes, "FILE", "To be planned; once for each"),
+           make_argument("--tolerances", &options->tolerances, "E,...", "Of the plans").within(1e-4, 0.5),
            make_threads_option(&options->threads), make_flag("--no-plots", &options->no_plots, "Draw nothing")},
           "Examples:\n"
           "  skein bench ladder\n"
           "  skein bench ladder -o short --lengths 0.139,0.196\n"
+          "  skein bench plan --scene configs/tumbling.toml --scene configs/buckling_C.toml\n"
           "The ladder of all four lengths takes half an hour on two cores, of the first three a third of that.",
-          [options] { return bench_ladder(*options); }};
+          [options] { return bench(*options); }};
 }
 
 }  // namespace skein

@@ -7,6 +7,7 @@
 #include "cli/verbs.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/scene_summary.hpp"
+#include "studies/ladder_table.hpp"
 
 #include <fmt/format.h>
 
@@ -56,8 +57,8 @@ int validate_scene(const ValidateOptions& options) {
     return 0;
   }
   for (const Problem& warning : scene.warnings) print_warning(warning.describe());
-  print_result(fmt::format("{}mobility: {}\n", describe_scene(scene.config),
-                           describe_choice(choose_mobility(scene.config), scene.config)));
+  print_result(fmt::format("{}mobility: {}\n{}\n", describe_scene(scene.config),
+                           describe_choice(choose_mobility(scene.config), scene.config), describe_ladder()));
   return 0;
 }
 

@@ -1,5 +1,7 @@
 #include "studies/ladder_table.hpp"
 
+#include <fmt/format.h>
+
 namespace skein {
 
 const std::vector<LadderRow>& list_ladder() {
@@ -14,6 +16,19 @@ double find_ladder_error(const int nodes_per_section) {
   for (const LadderRow& row : list_ladder())
     if (row.nodes_per_section <= nodes_per_section) error = row.error;
   return error;
+}
+
+int find_ladder_rung(const double tolerance) {
+  for (const LadderRow& row : list_ladder())
+    if (row.error <= tolerance) return row.nodes_per_section;
+  return 0;
+}
+
+std::string describe_ladder() {
+  return fmt::format(
+      "resolution: for the paper's fibers in shear {} nodes on a section would do for 1 %, {} for 5 %, {} for 20 %; "
+      "'skein plan' measures what this scene needs",
+      find_ladder_rung(0.01), find_ladder_rung(0.05), find_ladder_rung(0.2));
 }
 
 }  // namespace skein

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 namespace skein {
@@ -15,5 +16,11 @@ const std::vector<LadderRow>& list_ladder();
 
 /// The error of a rung by that table; between its rows the coarser one's, and beyond them the ends'.
 double find_ladder_error(int nodes_per_section);
+
+/// The fewest nodes on a section that are within a tolerance by that table; 0 where none are.
+int find_ladder_rung(double tolerance);
+
+/// Which rungs would do for which tolerance, a line.
+std::string describe_ladder();
 
 }  // namespace skein

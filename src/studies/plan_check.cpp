@@ -1,0 +1,63 @@
+#include "studies/plan_check.hpp"
+
+#include <skein/physics/scene_times.hpp>
+
+#include "studies/ladder_table.hpp"
+#include "studies/rung.hpp"
+
+#include <limits>
+
+namespace skein {
+namespace {
+
+constexpr int finest_rung = 24;
+constexpr int n_checked_frames = 400;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+struct Measured {
+  double error = 0.0, seconds = 0.0;
+};
+
+}  // namespace
+
+std::vector<PlanCheck> check_plans(const SceneConfig& asked, const PlanRequest& request,
+                                   const std::vector<double>& tolerances,
+                                   const std::function<void(const std::string&)>& say) {
+  const SceneConfig scene = resolve_times(asked);
+  SceneConfig finest = make_rung_scene(scene, finest_rung);
+  finest.time.tolerance /= 3.0;
+  say("the finest tube");
+  const Pilot reference = run_pilot(finest, n_checked_frames, unlimited);
+  const auto measure = [&](const SceneConfig& way) {
+    const Pilot pilot = run_pilot(way, n_checked_frames, unlimited);
+    const double error =
+        pilot.failure.empty() ? find_largest_error(compare_answers(pilot, reference, request.asked)) : unlimited;
+    return Measured{error, pilot.seconds};
+  };
+  std::vector<Measured> rungs;
+  for (const LadderRow& row : list_ladder()) {
+    say("a rung");
+    rungs.push_back(measure(make_rung_scene(scene, row.nodes_per_section)));
+  }
+  std::vector<PlanCheck> checks;
+  for (const double tolerance : tolerances) {
+    PlanRequest once = request;
+    once.tolerance = tolerance;
+    const Plan plan = make_plan(scene, once, say);
+    PlanCheck check{tolerance, 0, unlimited, unlimited, 0.0, unlimited};
+    for (const Measured& rung : rungs)
+      if (rung.error <= tolerance && rung.seconds < check.cheapest_seconds) check.cheapest_seconds = rung.seconds;
+    if (plan.chosen >= 0) {
+      const Candidate& chosen = plan.candidates[plan.chosen];
+      const Measured found = measure(chosen.scene);
+      check.chosen = chosen.nodes_per_section;
+      check.predicted_error = chosen.error;
+      check.measured_error = found.error;
+      check.seconds = found.seconds;
+    }
+    checks.push_back(check);
+  }
+  return checks;
+}
+
+}  // namespace skein
