@@ -59,15 +59,21 @@ double compare_lists(const std::vector<double>& found, const std::vector<double>
   return largest;
 }
 
+/// True where folded ends travel at one speed; in a vortex they may come and go.
+bool snakes(const FiberSummary& summary) {
+  constexpr double least_determination = 0.95;
+  return summary.snaking && summary.snaking->determination >= least_determination;
+}
+
 /// A fiber's numbers of one kind; none where it has no answer.
 std::vector<double> list_values(const FiberSummary& summary, const Question question) {
   switch (question) {
     case Question::half_period:
       return summary.half_periods;
     case Question::hook_radius:
-      return summary.snaking ? std::vector<double>{summary.snaking->hook_radius} : std::vector<double>{};
+      return snakes(summary) ? std::vector<double>{summary.snaking->hook_radius} : std::vector<double>{};
     case Question::snaking_speed:
-      return summary.snaking ? std::vector<double>{summary.snaking->speed} : std::vector<double>{};
+      return snakes(summary) ? std::vector<double>{summary.snaking->speed} : std::vector<double>{};
     case Question::curvature_max:
       return {summary.curvature_max};
     case Question::shape:
