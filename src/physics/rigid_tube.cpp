@@ -17,18 +17,6 @@ namespace {
 using Cylindrical = std::array<double, 3>;
 using Block = std::array<Cylindrical, 3>;
 
-/// The fields of mode 0 are the same for all nodes of a section; those of mode 1 go with the cosine of their angle, the
-/// one along growing angle with its sine.
-struct Basis {
-  Vec3 field[3];
-};
-
-Basis basis_at(const int mode, const double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double even = mode == 0 ? 1.0 : c, odd = mode == 0 ? 1.0 : s;
-  return {{even * Vec3{c, s, 0.0}, odd * Vec3{-s, c, 0.0}, even * Vec3{0.0, 0.0, 1.0}}};
-}
-
 Vec3 stokeslet(const Vec3 d, const double blob_squared, const Vec3 f) {
   const auto weight = regularized_stokeslet::weights(d.x, d.y, d.z, blob_squared);
   Vec3 u;
@@ -36,21 +24,28 @@ Vec3 stokeslet(const Vec3 d, const double blob_squared, const Vec3 f) {
   return u;
 }
 
-/// <basis a, velocities at the nodes of one section due to forces of basis b on another>, the sections `along` apart.
+/// How many nodes a field of a mode counts for: the sum of its squares over a section.
+double square_of(const FiberConfig& config, const int mode) {
+  return mode == 0 ? config.nodes_per_section : 0.5 * config.nodes_per_section;
+}
+
+/// <field a, velocities at the nodes of one section due to forces of field b on another>, the sections `along` apart.
+/// The fields of mode 0 are the same for all nodes of a section; those of mode 1 go with the cosine of their angle, the
+/// one along growing angle with its sine. All targets see alike, so that the one at angle 0 tells.
 Block make_block(const FiberConfig& config, const int mode, const double along, const double scale) {
   const int n = config.nodes_per_section;
+  constexpr int around = 1;  // the field with the sine
   Block block{};
-  for (int node = 0; node < n; ++node) {
-    const double angle = 2.0 * std::numbers::pi * node / n;
-    const Basis target = basis_at(mode, angle);
-    for (int source = 0; source < n; ++source) {
-      const double other = 2.0 * std::numbers::pi * source / n;
-      const Vec3 d{config.radius * (std::cos(angle) - std::cos(other)),
-                   config.radius * (std::sin(angle) - std::sin(other)), along};
-      const Basis force = basis_at(mode, other);
-      for (int b = 0; b < 3; ++b) {
-        const Vec3 u = scale * stokeslet(d, config.blob * config.blob, force.field[b]);
-        for (int a = 0; a < 3; ++a) block[a][b] += dot(target.field[a], u);
+  for (int source = 0; source < n; ++source) {
+    const double angle = 2.0 * std::numbers::pi * source / n, c = std::cos(angle), s = std::sin(angle);
+    const Vec3 d{config.radius * (1.0 - c), -config.radius * s, along};
+    const Vec3 force[3] = {{c, s, 0.0}, {-s, c, 0.0}, {0.0, 0.0, 1.0}};
+    for (int b = 0; b < 3; ++b) {
+      const Vec3 u = stokeslet(d, config.blob * config.blob, force[b]);
+      const double part[3] = {u.x, u.y, u.z};
+      for (int a = 0; a < 3; ++a) {
+        const double phase = mode == 0 ? 1.0 : (a == around) == (b == around) ? c : b == around ? s : -s;
+        block[a][b] += scale * square_of(config, mode) * phase * part[a];
       }
     }
   }
@@ -78,8 +73,8 @@ Eigen::MatrixXd make_mobility(const Fiber& fiber, const int mode, const double v
 /// `mobility` gives them: [3 N_f]. @param at  place along the tube -> shares of the three fields
 template <class Field>
 Eigen::VectorXd project(const Fiber& fiber, const int mode, const Field& at) {
-  const int n = fiber.config.sections, n_nodes = fiber.config.nodes_per_section;
-  const double square = mode == 0 ? n_nodes : 0.5 * n_nodes;
+  const int n = fiber.config.sections;
+  const double square = square_of(fiber.config, mode);
   Eigen::VectorXd values(3 * n);
   for (int s = 0; s < n; ++s) {
     const Cylindrical shares = at((s - 0.5 * (n - 1)) * fiber.spacing());

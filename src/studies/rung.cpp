@@ -14,7 +14,7 @@
 namespace skein {
 namespace {
 
-constexpr double most_radii = 40.0;  ///< length of the rigid tubes that are compared: ends count, more middle does not
+constexpr double most_radii = 120.0;  ///< length of the rigid tubes that are compared: ends count, more middle does not
 
 /// A piece of the fiber that is short enough to be solved for quickly.
 RigidTubeDrag measure_piece(FiberConfig fiber) {
