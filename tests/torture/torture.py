@@ -1,9 +1,10 @@
-"""Everything a run must survive, and one table: torture.py SKEIN FOLDER [--short | --campaign] [MODULE...]
+"""Everything a run must survive, and one table: torture.py SKEIN FOLDER [--short | --campaign] [--share 0.2] [MODULE...]
 
 FOLDER is filled with run folders. The exit code is 0 if every promise was kept."""
 
 import argparse
 import importlib
+import math
 import pathlib
 import subprocess
 import sys
@@ -47,6 +48,13 @@ def torture(name, program, counts):
         return 0, False, traceback.format_exc()
 
 
+def read_share(text):
+    share = float(text)
+    if not 0.0 < share <= 1.0:
+        raise ValueError
+    return share
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("program", type=pathlib.Path)
@@ -54,9 +62,10 @@ def main():
     size = arguments.add_mutually_exclusive_group()
     size.add_argument("--short", dest="size", action="store_const", const="short")
     size.add_argument("--campaign", dest="size", action="store_const", const="campaign")
+    arguments.add_argument("--share", type=read_share, default=1.0, help="of the counts, each rounded up; default 1")
     arguments.add_argument("modules", nargs="*", metavar="MODULE", help=f"only these: {', '.join(PROMISES)}")
     options = arguments.parse_args()
-    counts = COUNTS[options.size or "usual"]
+    counts = {name: math.ceil(options.share * n) for name, n in COUNTS[options.size or "usual"].items()}
     options.folder.mkdir(parents=True, exist_ok=True)
     program = Program(options.program.resolve(), options.folder.resolve())
 
