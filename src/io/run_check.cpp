@@ -198,7 +198,8 @@ void RunChecker::check_frame(const std::string& name, const double time, const s
 void RunChecker::compare_with_index() {
   if (check_.segments < n_segments_) return;  // said already
   if (!listed_checksum_.empty() && listed_checksum_ != check_.checksum)
-    report("the index says that the chain ends with {}, the segments say {}", listed_checksum_, check_.checksum);
+    report("'{}' says that the chain of segments ends with {:.32}, and it ends with {}",
+           folder_.index().filename().string(), listed_checksum_, check_.checksum);
   if (check_.status == "done" && (last_frame_time_ != scene_.time.end || record_times_.back() != scene_.time.end))
     report(
         "the run says that it is done, but its last frame is at t = {}, its last step at {}, and the scene ends at {}",
