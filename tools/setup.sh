@@ -26,7 +26,8 @@ Usage: tools/setup.sh [options]
 
 Installs the missing Debian packages and provides Kokkos. A Kokkos found through SKEIN_KOKKOS_PREFIX, CMAKE_PREFIX_PATH,
 Kokkos_ROOT, Kokkos_DIR or the system's own paths is used when it is 3.4 to 5.x and has the backend; otherwise Kokkos is
-built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler.
+built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler, SKEIN_PROCESSOR for which processor (g++'s
+-march; default: native).
 
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
@@ -130,13 +131,13 @@ is_usable() {
 
 # --- Kokkos from Debian's sources ---
 
-# What decides whether a cached Kokkos fits: the compiler, the processor (both through the macros of -march=native) and
+# What decides whether a cached Kokkos fits: the compiler, the processor (both through the macros of -march) and
 # the options. Sets compiler, options and cache_key.
 describe_build() {
-  local flags='' name hash
+  local flags='' processor=${SKEIN_PROCESSOR:-native} name hash
   compiler=${CXX:-c++}
   command -v "$compiler" >/dev/null || fail "the compiler '$compiler' is not found; set CXX or install g++."
-  if "$compiler" -march=native -E -x c++ /dev/null >/dev/null 2>&1; then flags=-march=native; fi
+  if "$compiler" -march="$processor" -E -x c++ /dev/null >/dev/null 2>&1; then flags=-march=$processor; fi
   options=(
     -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_CXX_STANDARD=20

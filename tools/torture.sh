@@ -12,6 +12,7 @@ that are none, readers, fuzzers, and all tests under sanitizers. Prints one tabl
 kept. Filling a disk needs root.
 
   --campaign       the larger counts, for a release: hours
+  --share NUMBER   of the counts, such as 0.2, each rounded up
   --short          the small counts, those of CTest: a minute, without fuzzers and sanitizers
   --program PATH   torture this skein instead of building one
   --folder PATH    run folders go there (default: build/torture)
@@ -21,6 +22,7 @@ TEXT
 }
 
 size=()
+share=1
 program=
 folder=build/torture
 fuzz_seconds=60
@@ -37,12 +39,16 @@ while (($#)); do
       fuzzing=false
       sanitizers=false
       ;;
-    --program | --folder)
+    --program | --folder | --share)
       (($# > 1)) || {
-        echo "torture.sh: $1 needs a path." >&2
+        echo "torture.sh: $1 needs a value." >&2
         exit 1
       }
-      if [[ $1 == --program ]]; then program=$2; else folder=$2; fi
+      case $1 in
+        --program) program=$2 ;;
+        --folder) folder=$2 ;;
+        --share) share=$2 ;;
+      esac
       shift
       ;;
     --no-fuzzing) fuzzing=false ;;
@@ -105,7 +111,7 @@ build_fuzzers() {
 
 run_sanitized_tests() { tools/test.sh --preset sanitize; }
 
-"$python" tests/torture/torture.py "$program" "$folder" "${size[@]}" || kept=1
+"$python" tests/torture/torture.py "$program" "$folder" "${size[@]}" --share "$share" || kept=1
 if $fuzzing; then
   if build_fuzzers >>"$log" 2>&1; then
     try "scene reader fuzzed" "$fuzz_seconds s" fuzz fuzz_scene

@@ -156,10 +156,10 @@ bool RunChecker::check_segment(const std::int64_t number) {
            segment.checksum);
   const bool is_listed = number < listed_.size();
   if (is_listed && (listed_.frames[number] != segment.n_frames || listed_.steps[number] != segment.n_records))
-    report("'{}' holds {} frames and {} steps, and the index lists {} and {}", name, segment.n_frames,
+    report("'{}' holds {} frames and {} steps, and 'trajectory.h5' lists {} and {}", name, segment.n_frames,
            segment.n_records, listed_.frames[number], listed_.steps[number]);
   if (is_listed && segment.n_frames > 0 && listed_.last_time[number] != segment.last_time)
-    report("'{}' ends at t = {}, and the index says {}", name, segment.last_time, listed_.last_time[number]);
+    report("'{}' ends at t = {}, and 'trajectory.h5' says {}", name, segment.last_time, listed_.last_time[number]);
   if (segment.first_frame != check_.frames)
     report("'{}' begins with frame {}, and frame {} comes next", name, segment.first_frame, check_.frames);
   if (segment.first_record != check_.records)
@@ -219,7 +219,8 @@ bool RunChecker::ends_at_earlier_end() const {
 void RunChecker::compare_with_index() {
   if (check_.segments < n_segments_) return;  // said already
   if (!listed_checksum_.empty() && listed_checksum_ != check_.checksum)
-    report("the index says that the chain ends with {}, the segments say {}", listed_checksum_, check_.checksum);
+    report("'trajectory.h5' says that the chain of segments ends with {:.32}, and it ends with {}", listed_checksum_,
+           check_.checksum);
   if (check_.status == "done" && ends_at_earlier_end())
     note(fmt::format("the run ended at t = {}, and its end was moved to {}: 'skein resume' goes on", last_frame_time_,
                      scene_.time.end));

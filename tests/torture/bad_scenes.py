@@ -61,7 +61,8 @@ def judge(program, number, scene):
     known = valid or result.returncode in (SCENE_ERROR, MISSING)
     require(known, f"scene {number}: exit code {result.returncode}: {result.stderr}\n{scene!r}")
     if not valid:
-        named = re.search(r"scene\.toml:\d+:\d+: ", result.stderr)
+        # What all keys together ask for has no line, but a name.
+        named = re.search(r"scene\.toml:(\d+:\d+:| time\.| fibers | placement)", result.stderr)
         require(named, f"scene {number}: no place is named: {result.stderr}")
         if number % 10 == 0:
             refused = program.call([program.path, "run", path, "-o", output], timeout=20)

@@ -30,13 +30,13 @@ def wait_for_stop(process, asked, what):
     return seconds
 
 
-def stop_once(program, folder, name, wait):
-    """Asks a new run to stop after `wait` seconds, in the way that is named."""
+def stop_once(program, folder, name, wait, late):
+    """Asks a new run to stop after `wait` seconds, in the way that is named. A walltime may end `late` seconds late."""
     asked = time.monotonic()
     if name == "walltime":
         process = program.start(program.run_command(folder, OVERRIDES, "--max-walltime", f"{wait:.3f}"))
         seconds = wait_for_stop(process, asked, name)
-        require(seconds is None or seconds <= wait + 0.3, f"{name}: {wait:.2f} s allowed, {seconds} s taken")
+        require(seconds is None or seconds <= wait + late, f"{name}: {wait:.2f} s allowed, {seconds} s taken")
         return seconds if seconds is None else 0.0
     process = begin(program, folder)
     time.sleep(wait)
@@ -65,6 +65,7 @@ def torture(program, counts, seed=3):
     require(program.run(folder, OVERRIDES).returncode == DONE, "the unbroken run fails")
     duration = time.monotonic() - started
     reference = final_state(folder)
+    late = max(0.3, 0.1 * duration)  # beside other processes a checkpoint may take longer than any before
     slowest, n_done = 0.0, 0
     for _ in range(counts["stops"]):
         for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGXCPU", "SIGUSR1", "SIGUSR2", "SIGALRM", "two SIGINT", "STOP",
@@ -72,7 +73,7 @@ def torture(program, counts, seed=3):
             wait = draw.uniform(0.2, 0.5) * duration
             for _ in range(6):  # a machine with more time than before may finish first
                 folder = program.fresh("stopped")
-                seconds = stop_once(program, folder, name, wait)
+                seconds = stop_once(program, folder, name, wait, late)
                 if seconds is not None:
                     break
                 wait *= 0.6

@@ -1,10 +1,12 @@
-"""Everything a run must survive, and one table: torture.py SKEIN FOLDER [--short | --campaign] [MODULE...]
+"""Everything a run must survive, and one table: torture.py SKEIN FOLDER [--short | --campaign] [--share 0.2] [MODULE...]
 
 FOLDER is filled with run folders. The exit code is 0 if every promise was kept."""
 
 import argparse
 import importlib
+import math
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -19,6 +21,7 @@ PROMISES = {
     "stops": "signals, files, walltime",
     "write_errors": "disk full, write errors",
     "damaged_checkpoints": "damaged checkpoints",
+    "damaged_files": "damaged files",
     "crafted_files": "crafted HDF5 files",
     "unreadable": "unreadable files, folders",
     "bad_scenes": "bad scenes",
@@ -28,11 +31,11 @@ PROMISES = {
     "descriptors": "descriptors closed",
 }
 COUNTS = {
-    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, crafted_files=40, harms=8, scenes=60,
+    "short": dict(kills=6, restarts=5, stops=1, full_disks=2, write_errors=5, damages=8, files=20, crafted_files=40, harms=8, scenes=60,
                   faults=4, readings=20, planted=12, descriptors=7),
-    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, crafted_files=370, harms=60,
+    "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, files=300, crafted_files=370, harms=60,
                   scenes=2000, faults=50, readings=200, planted=120, descriptors=14),
-    "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000,
+    "campaign": dict(kills=1000, restarts=240, stops=50, full_disks=50, write_errors=200, damages=2000, files=5000,
                      crafted_files=1500, harms=1000, scenes=20000, faults=500, readings=2000, planted=1000, descriptors=70),
 }
 
@@ -47,6 +50,13 @@ def torture(name, program, counts):
         return 0, False, traceback.format_exc()
 
 
+def read_share(text):
+    share = float(text)
+    if not 0.0 < share <= 1.0:
+        raise ValueError
+    return share
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("program", type=pathlib.Path)
@@ -54,12 +64,15 @@ def main():
     size = arguments.add_mutually_exclusive_group()
     size.add_argument("--short", dest="size", action="store_const", const="short")
     size.add_argument("--campaign", dest="size", action="store_const", const="campaign")
+    arguments.add_argument("--share", type=read_share, default=1.0, help="of the counts, each rounded up; default 1")
     arguments.add_argument("modules", nargs="*", metavar="MODULE", help=f"only these: {', '.join(PROMISES)}")
-    options = arguments.parse_args()
-    counts = COUNTS[options.size or "usual"]
+    options = arguments.parse_intermixed_args()
+    counts = {name: math.ceil(options.share * n) for name, n in COUNTS[options.size or "usual"].items()}
     options.folder.mkdir(parents=True, exist_ok=True)
     program = Program(options.program.resolve(), options.folder.resolve())
 
+    if signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:  # as under nohup: runs would inherit that they ignore it
+        signal.signal(signal.SIGHUP, lambda *_: None)
     kept = True
     print(f"{'promise':26}{'count':>7}  {'passed':8}{'seconds':>8}  remark", flush=True)
     for name in options.modules or PROMISES:

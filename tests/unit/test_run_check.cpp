@@ -163,6 +163,19 @@ TEST_F(WholeRun, AnyChangedByteOfAnyFileIsFound) {
   EXPECT_EQ(problem(), "");
 }
 
+// By somebody who also mends the file's own checksum.
+TEST_F(WholeRun, AnIndexThatListsAnotherChainIsNamed) {
+  const std::string checksum = check_run(folder_.path()).checksum;
+  std::string bytes = read_file(folder_.index());
+  int n_found = 0;
+  for (std::size_t at = bytes.find(checksum); at != std::string::npos; at = bytes.find(checksum, at + 1), ++n_found)
+    bytes[at] = bytes[at] == '0' ? '1' : '0';
+  ASSERT_GE(n_found, 1);
+  write_file_atomically(folder_.index(), bytes);
+  seal_again(folder_.index());
+  EXPECT_NE(problem().find("'trajectory.h5' says that the chain"), std::string::npos) << problem();
+}
+
 TEST_F(WholeRun, AnotherSceneIsFound) {
   write_file_atomically(folder_.scene(), read_file(folder_.scene()) + "# changed\n");
   EXPECT_NE(problem().find("was changed since"), std::string::npos);
