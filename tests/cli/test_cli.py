@@ -252,6 +252,11 @@ class WhatARunWrites(InFreshFolder):
         for number, title in enumerate(titles):
             self.run_to_the_end(f"result{number}", "--set", f"title={title}")
 
+    def test_verify_says_what_it_does_not_look_at(self):
+        self.make_run()
+        (self.folder / "run/trajectory.xdmf").write_text("")
+        self.assertIn("not looked at: trajectory.xdmf", self.expect(DONE, "verify", "run").stdout)
+
     def test_a_folder_whose_name_is_no_utf8_serves(self):
         self.run_to_the_end(self.LATIN_1)
 
