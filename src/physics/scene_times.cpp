@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -17,10 +19,13 @@ constexpr double least_error = 1e-13;  // in a time scale, over the length: less
 constexpr double n_steps_allowed = 1e12;
 constexpr double n_frames_allowed = 1e7;
 
-void check_times(const SceneConfig& scene, const double time_scale) {
+/// @param scene  whose times are numbers
+std::vector<KeyProblem> find_problems(const SceneConfig& scene, const double time_scale) {
   const TimeConfig& time = scene.time;
+  std::vector<KeyProblem> problems;
   const auto reject = [&](const std::string& what) {
-    throw Error(ExitCode::scene_error, fmt::format("{} (the scene's time scale is {:.3g})", what, time_scale));
+    const std::string key = what.substr(0, what.find(' '));
+    problems.push_back({key, fmt::format("{} (the scene's time scale is {:.3g})", what, time_scale)});
   };
   const double duration = time.end - time.start;
   const double reach = duration > 0.0 ? std::min(duration, time_scale) : time_scale;
@@ -40,6 +45,14 @@ void check_times(const SceneConfig& scene, const double time_scale) {
   if (duration / scene.output.frame_interval > n_frames_allowed)
     reject(fmt::format("time.end {:g} would make more than {:.0e} frames: set output.frame_interval", time.end,
                        n_frames_allowed));
+  return problems;
+}
+
+/// The scene with numbers for all its times.
+SceneConfig fill_in_times(SceneConfig scene, const double time_scale) {
+  scene.time = resolve_time(scene.time, time_scale);
+  if (scene.output.frame_interval == 0.0) scene.output.frame_interval = 0.125 * time_scale;
+  return scene;
 }
 
 }  // namespace
@@ -60,11 +73,16 @@ TimeConfig resolve_time(TimeConfig time, const double time_scale) {
   return time;
 }
 
+std::vector<KeyProblem> find_time_problems(const SceneConfig& scene) {
+  const double time_scale = find_time_scale(scene);
+  return find_problems(fill_in_times(scene, time_scale), time_scale);
+}
+
 SceneConfig resolve_times(SceneConfig scene) {
   const double time_scale = find_time_scale(scene);
-  scene.time = resolve_time(scene.time, time_scale);
-  if (scene.output.frame_interval == 0.0) scene.output.frame_interval = 0.125 * time_scale;
-  check_times(scene, time_scale);
+  scene = fill_in_times(std::move(scene), time_scale);
+  const auto problems = find_problems(scene, time_scale);
+  if (!problems.empty()) throw Error(ExitCode::scene_error, problems.front().message);
   return scene;
 }
 

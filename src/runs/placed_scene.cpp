@@ -27,10 +27,16 @@ PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vect
   SceneReading reading = read_scene(file, overrides, find_problems);
   check_memory(reading.config);
   try {
-    reading.config = resolve_times(place_fibers(reading.config));
+    SceneConfig placed = place_fibers(reading.config);
+    // They are only known once fibers are placed, and only the file knows where their keys stand.
+    const auto problems = find_time_problems(placed);
+    if (!problems.empty()) read_scene(file, overrides, [&](const SceneConfig&) { return problems; });
+    reading.config = resolve_times(std::move(placed));
     check_overlap(make_fibers(reading.config.fibers), reading.config.seed);
     std::string text = write_readable_scene(reading.config);
     return {std::move(reading.config), std::move(reading.warnings), std::move(text)};
+  } catch (const SceneError&) {
+    throw;
   } catch (const Error& error) {
     if (error.code() != ExitCode::scene_error) throw;
     throw SceneError(file.string(), {Problem{{file.string(), 0, 0, -1}, error.what(), ""}});

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <skein/scene/scene_config.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include <vector>
 
 namespace skein {
 
@@ -9,6 +12,9 @@ double find_time_scale(const SceneConfig& scene);
 
 /// The same times with numbers in place of the zeros that stand for what goes with the time scale.
 TimeConfig resolve_time(TimeConfig time, double time_scale);
+
+/// What makes no sense beside the scene's time scale: tolerances and numbers of steps and frames.
+std::vector<KeyProblem> find_time_problems(const SceneConfig& scene);
 
 /// The same for a scene: it depends on no default any more.
 /// @throws Error(scene_error) where a number makes no sense beside the scene's time scale
