@@ -35,7 +35,7 @@ void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::v
     return;
   }
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
-    const FiberConfig& fiber = scene.fibers[i];
+    const FiberConfig fiber = lay_out_chain(scene.fibers[i]);
     const double spacing = compute_section_spacing(fiber);
     const double half_width = std::sqrt(4.0 * fiber.radius * (range > 0.0 ? range : thinnest));
     if (half_width >= spacing) continue;
@@ -69,7 +69,7 @@ void check_loads(const std::string& table, const std::vector<Load>& loads, const
     }
     // Copies are made of the list's fibers in turn.
     const std::size_t model = static_cast<std::size_t>(load.fiber) % scene.fibers.size();
-    const int n_sections = scene.fibers[model].sections;
+    const int n_sections = lay_out_chain(scene.fibers[model]).sections;
     if (!reader.is_sound(reader.path_of("fiber", model)) || (load.section >= -n_sections && load.section < n_sections))
       continue;
     reader.add(problems, path + ".section",
