@@ -79,6 +79,7 @@ FiberConfig make_chain(const FiberConfig& fiber, const double viscosity) {
   FiberConfig chain = lay_out_chain(fiber);
   chain.blob = match.blob;
   chain.shear_couple = match.shear_couple;
+  chain.end_couple = match.end_couple;
   chain.bending_rigidity = beam.relaxed_bending;
   chain.spring_stiffness = beam.relaxed_axial;
   return chain;
@@ -136,7 +137,9 @@ ChainMatch match_chain(const FiberConfig& fiber, const double viscosity) {
   ChainMatch match;
   match.blob = find_blob(n_nodes, length / n_nodes, fiber.radius, viscosity, drag.turning);
   // Couples act on the links, of which there is one less than nodes.
-  match.shear_couple = drag.torque_along / (length * (n_nodes - 1) / n_nodes);
+  const double linked = length * (n_nodes - 1) / n_nodes;
+  match.shear_couple = std::min(drag.couple_within, drag.torque_along / linked);
+  match.end_couple = 0.5 * (drag.torque_along - match.shear_couple * linked);
   const LineDrag line = measure_line(n_nodes, length / n_nodes, match.blob, viscosity);
   match.transverse = line.transverse / drag.transverse;
   match.axial = line.axial / drag.axial;

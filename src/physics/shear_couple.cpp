@@ -13,11 +13,15 @@ namespace {
 /// Couple over the rate of shear on the link from each node to the next, force * length * time; 0 where there is none.
 std::vector<double> make_couples(const std::vector<Fiber>& fibers) {
   std::vector<double> couple;
-  for (const Fiber& fiber : fibers)
-    for (int node = 0; node < fiber.n_nodes(); ++node) {
-      const bool is_link = fiber.config.model == FiberModel::chain && node + 1 < fiber.n_nodes();
-      couple.push_back(is_link ? fiber.config.shear_couple * fiber.spacing() : 0.0);
-    }
+  for (const Fiber& fiber : fibers) {
+    const std::size_t first = couple.size(), n_nodes = static_cast<std::size_t>(fiber.n_nodes());
+    couple.resize(first + n_nodes);
+    if (fiber.config.model != FiberModel::chain) continue;
+    const std::size_t end = first + n_nodes - 1;  // no link begins at the last node
+    std::fill(couple.begin() + first, couple.begin() + end, fiber.config.shear_couple * fiber.spacing());
+    couple[first] += fiber.config.end_couple;
+    couple[end - 1] += fiber.config.end_couple;
+  }
   return couple;
 }
 
@@ -140,7 +144,8 @@ class ShearCouple final : public Force {
 }  // namespace
 
 void append_shear_couple(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
-  if (std::any_of(fibers.begin(), fibers.end(), [](const Fiber& fiber) { return fiber.config.shear_couple > 0.0; }))
+  if (std::any_of(fibers.begin(), fibers.end(),
+                  [](const Fiber& fiber) { return fiber.config.shear_couple > 0.0 || fiber.config.end_couple > 0.0; }))
     forces.push_back(std::make_unique<ShearCouple>(scene.flows, fibers));
 }
 

@@ -23,11 +23,12 @@ std::string describe_chain(const Fiber& fiber, const BeamStiffness& beam, const 
   const FiberConfig& config = fiber.config;
   return fmt::format(
       "fiber {}: a chain of {} nodes, length {:.6g} (centreline {:.6g}), radius {:g}, spacing {:.6g}\n"
-      "  EI {:.6g}, EA {:.6g}, no resistance to twist; couple on a length along a shear {:.4g} times its rate\n"
+      "  EI {:.6g}, EA {:.6g}, no resistance to twist; couple along a shear {:.4g} a length and {:.4g} at each end, "
+      "times its rate\n"
       "  rho = R/L {:.4g}, blob/spacing {:.3g}, blob/radius {:.3g}\n",
       index, config.sections, fiber.length(), fiber.length() - fiber.spacing(), config.radius, fiber.spacing(),
-      beam.bending, beam.axial, config.shear_couple, config.radius / fiber.length(), config.blob / fiber.spacing(),
-      config.blob / config.radius);
+      beam.bending, beam.axial, config.shear_couple, config.end_couple, config.radius / fiber.length(),
+      config.blob / fiber.spacing(), config.blob / config.radius);
 }
 
 std::string describe_tube(const Fiber& fiber, const BeamStiffness& beam, const int index) {

@@ -80,6 +80,9 @@ void visit_chain(KeyVisitor& visitor, FiberConfig& fiber) {
                   "couple on a length of a chain with nodes_per_section = 1 that lies along a shear, over its rate; "
                   "other chains take it from the tube"},
                  fiber.shear_couple);
+  visitor.number({"end_couple", "force * length * time", zero_or_more(),
+                  "of a chain with nodes_per_section = 1: the same at either end, beside that on its length"},
+                 fiber.end_couple);
 }
 
 void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {

@@ -38,9 +38,13 @@ void check_model(const FiberConfig& fiber, const std::string& path, const SceneR
     reject("spacing", "must be given: single nodes have no neighbours on a section to take it from");
   if (is_bare && fiber.reach_along != 1)
     reject("reach_along", fmt::format("{}: links of a chain join neighbours", fiber.reach_along));
-  if (!is_bare && (fiber.bending_rigidity > 0.0 || fiber.shear_couple > 0.0))
-    reject(fiber.bending_rigidity > 0.0 ? "bending_rigidity" : "shear_couple",
-           "is of a chain with nodes_per_section = 1; a tube's follows from its springs and nodes");
+  const auto keep_bare = [&](const char* key, const double value) {
+    if (!is_bare && value > 0.0)
+      reject(key, "is of a chain with nodes_per_section = 1; a tube's follows from its springs and nodes");
+  };
+  keep_bare("bending_rigidity", fiber.bending_rigidity);
+  keep_bare("shear_couple", fiber.shear_couple);
+  keep_bare("end_couple", fiber.end_couple);
   if (fiber.chain_nodes == 0) return;
   if (!fiber.stands_for_tube())
     reject("chain_nodes", fmt::format("{}: only a chain that stands for a tube, with nodes_per_section = 3 or more, "

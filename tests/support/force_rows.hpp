@@ -19,6 +19,7 @@ inline void turn_into_chains(SceneConfig& scene, const double bending_rigidity, 
     fiber.spacing = 0.005;
     fiber.bending_rigidity = bending_rigidity;
     fiber.shear_couple = shear_couple;
+    fiber.end_couple = 0.01 * shear_couple;
     fiber.stiffness_profile = {{0.2, 1.0}, {0.8, 1.7}};
   }
 }

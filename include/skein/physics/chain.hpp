@@ -7,7 +7,8 @@ namespace skein {
 /// What a chain takes over from the tube in whose stead it stands, and how well it does.
 struct ChainMatch {
   double blob = 0.0;          ///< with which the straight chain is turned against as much drag as the tube, length
-  double shear_couple = 0.0;  ///< which holds the straight chain in a shear as the tube is held, force * time
+  double shear_couple = 0.0;  ///< on a length of its middle that lies along a shear, over its rate, force * time
+  double end_couple = 0.0;    ///< at each end beside it, so that all together are the tube's, force * length * time
   double transverse = 0.0;    ///< the chain's drag across itself over the tube's
   double axial = 0.0;         ///< ... and along itself
 };

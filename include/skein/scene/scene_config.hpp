@@ -76,6 +76,7 @@ struct FiberConfig {
   int chain_nodes = 0;            ///< of a chain in a tube's stead; 0: about two radii apart
   double bending_rigidity = 0.0;  ///< EI of a chain as such, force * length^2
   double shear_couple = 0.0;      ///< of a chain as such: couple per length and rate of shear, force * time
+  double end_couple = 0.0;        ///< of a chain as such: couple per rate of shear at each end, force * length * time
 
   /// True where it waits to be turned into a chain with numbers of its own, see resolve_chains.
   bool stands_for_tube() const { return model == FiberModel::chain && nodes_per_section > 1; }
