@@ -18,22 +18,23 @@
 namespace skein {
 namespace {
 
-constexpr int n_sections_measured = 300;
+constexpr int n_sections_measured = 320;
+constexpr double least_spacing = 0.5;  ///< in radii: blobs of nodes that are closer can hardly be told apart
 
-/// Force or torque over the velocity of a straight rigid chain.
+/// Force or torque over the velocity of a straight rigid chain in a fluid of viscosity 1.
 struct LineDrag {
   double axial, transverse, turning;
 };
 
 /// @param blob, spacing  length
-LineDrag measure_line(const int n_nodes, const double spacing, const double blob, const double viscosity) {
+LineDrag measure_line(const int n_nodes, const double spacing, const double blob) {
   Eigen::MatrixXd along(n_nodes, n_nodes), across(n_nodes, n_nodes);
   for (int i = 0; i < n_nodes; ++i)
     for (int j = 0; j < n_nodes; ++j) {
       const double d = (i - j) * spacing;
       const auto weight = regularized_stokeslet::weights(d, 0.0, 0.0, blob * blob);
-      across(i, j) = regularized_stokeslet::scale(viscosity) * weight.isotropic;
-      along(i, j) = across(i, j) + regularized_stokeslet::scale(viscosity) * weight.along * d * d;
+      across(i, j) = regularized_stokeslet::scale(1.0) * weight.isotropic;
+      along(i, j) = across(i, j) + regularized_stokeslet::scale(1.0) * weight.along * d * d;
     }
   const Eigen::VectorXd slide = Eigen::VectorXd::Ones(n_nodes);
   const Eigen::VectorXd turn = Eigen::VectorXd::LinSpaced(n_nodes, -0.5, 0.5) * ((n_nodes - 1) * spacing);
@@ -41,12 +42,12 @@ LineDrag measure_line(const int n_nodes, const double spacing, const double blob
   return {slide.dot(along.llt().solve(slide)), slide.dot(factor.solve(slide)), turn.dot(factor.solve(turn))};
 }
 
-/// The blob between 0.2 and 5 radii with which a line of nodes is as hard to turn: drag grows with the blob.
-double find_blob(const int n_nodes, const double spacing, const double radius, const double viscosity,
-                 const double turning) {
+/// The blob between 0.2 and 5 radii, which are 1, with which a line of nodes is as hard to turn: drag grows with the
+/// blob.
+double find_blob(const int n_nodes, const double spacing, const double turning) {
   double low = 0.2, high = 5.0;
   const auto turns_too_easily = [&](const double ratio) {
-    return measure_line(n_nodes, spacing, ratio * radius, viscosity).turning < turning;
+    return measure_line(n_nodes, spacing, ratio).turning < turning;
   };
   if (!turns_too_easily(low) || turns_too_easily(high))
     throw Error(
@@ -59,22 +60,20 @@ double find_blob(const int n_nodes, const double spacing, const double radius, c
     const double middle = 0.5 * (low + high);
     (turns_too_easily(middle) ? low : high) = middle;
   }
-  return 0.5 * (low + high) * radius;
+  return 0.5 * (low + high);
 }
 
-/// The tube that a chain stands for.
-Fiber make_tube(const FiberConfig& chain) {
+/// The tube that a chain stands for, its stiffness the same all along.
+FiberConfig describe_tube(const FiberConfig& chain) {
   FiberConfig tube = chain;
   tube.model = FiberModel::tube;
   tube.chain_nodes = 0;
-  return make_fibers({tube}).front();
+  tube.stiffness_profile = FiberConfig{}.stiffness_profile;
+  return tube;
 }
 
 FiberConfig make_chain(const FiberConfig& fiber, const double viscosity) {
-  // A mean of the stiffness along the tube, whose profile the chain keeps.
-  Fiber tube = make_tube(fiber);
-  tube.config.stiffness_profile = FiberConfig{}.stiffness_profile;
-  const BeamStiffness beam = measure_beam_stiffness(tube);
+  const BeamStiffness beam = measure_beam_stiffness(make_fibers({describe_tube(fiber)}).front());
   const ChainMatch match = match_chain(fiber, viscosity);
   FiberConfig chain = lay_out_chain(fiber);
   chain.blob = match.blob;
@@ -127,20 +126,33 @@ class KnownChains {
 
 ChainMatch match_chain(const FiberConfig& fiber, const double viscosity) {
   SKEIN_REQUIRE(fiber.stands_for_tube(), "a chain that stands for no tube has nothing to match");
-  const double spacing = lay_out_chain(fiber).spacing;
-  Fiber tube = make_tube(fiber);
-  tube.config.sections = std::min(fiber.sections, n_sections_measured);
+  // In units in which radius and viscosity are 1, so that a scene in other units has the same chain to the last bit.
+  const double radius = fiber.radius, spacing = lay_out_chain(fiber).spacing / radius;
+  if (spacing < least_spacing)
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("the nodes of a chain would lie {:.3g} radii apart, less than {:g}: the tube is too short, or "
+                    "chain_nodes too many",
+                    spacing, least_spacing));
+  FiberConfig unit_tube = describe_tube(fiber);
+  unit_tube.sections = std::min(fiber.sections, n_sections_measured);
+  unit_tube.radius = 1.0;
+  unit_tube.blob /= radius;
+  unit_tube.spacing /= radius;
+  const Fiber tube = make_fibers({unit_tube}).front();
   const double length = tube.length();
   const int n_nodes = std::max(3, static_cast<int>(std::round(length / spacing)));
-  const RigidTubeDrag drag = measure_rigid_tube(tube, viscosity);
+  const RigidTubeDrag drag = measure_rigid_tube(tube, 1.0);
 
   ChainMatch match;
-  match.blob = find_blob(n_nodes, length / n_nodes, fiber.radius, viscosity, drag.turning);
+  const double blob = find_blob(n_nodes, length / n_nodes, drag.turning);
+  match.blob = blob * radius;
   // Couples act on the links, of which there is one less than nodes.
   const double linked = length * (n_nodes - 1) / n_nodes;
-  match.shear_couple = std::min(drag.couple_within, drag.torque_along / linked);
-  match.end_couple = 0.5 * (drag.torque_along - match.shear_couple * linked);
-  const LineDrag line = measure_line(n_nodes, length / n_nodes, match.blob, viscosity);
+  const double within = std::min(drag.couple_within, drag.torque_along / linked);
+  match.shear_couple = viscosity * radius * radius * within;
+  match.end_couple = viscosity * radius * radius * radius * 0.5 * (drag.torque_along - within * linked);
+  const LineDrag line = measure_line(n_nodes, length / n_nodes, blob);
   match.transverse = line.transverse / drag.transverse;
   match.axial = line.axial / drag.axial;
   return match;

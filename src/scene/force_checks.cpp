@@ -78,6 +78,20 @@ void check_loads(const std::string& table, const std::vector<Load>& loads, const
   }
 }
 
+void check_torques(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < scene.torques.size(); ++i) {
+    const std::string path = reader.path_of("torque", i);
+    const int fiber = scene.torques[i].fiber;
+    if (!reader.is_sound(path) || scene.fibers.empty() || fiber >= count_fibers(scene)) continue;
+    if (scene.fibers[static_cast<std::size_t>(fiber) % scene.fibers.size()].model == FiberModel::chain)
+      reader.add(
+          problems, path + ".fiber",
+          fmt::format("{}.fiber {}: sections of a chain are points, which no torque turns; [[tether]]s may pull at "
+                      "two of them",
+                      path, fiber));
+  }
+}
+
 }  // namespace
 
 void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
@@ -87,6 +101,7 @@ void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vect
   if (!reader.is_sound("placement")) return;
   check_loads("tether", scene.tethers, scene, reader, problems);
   check_loads("torque", scene.torques, scene, reader, problems);
+  check_torques(scene, reader, problems);
 }
 
 }  // namespace skein
