@@ -10,6 +10,14 @@
 
 namespace skein {
 
+/// numbers[node] = value(node).
+template <class Value>
+struct SetNumbers {
+  Scalars numbers;
+  Value value;
+  KOKKOS_INLINE_FUNCTION void operator()(const int node) const { numbers(node) = value(node); }
+};
+
 /// A number of each node, summed over each fiber: nodes in order, whatever the number of threads. Holds scratch.
 class NodeSums {
  public:
@@ -22,10 +30,8 @@ class NodeSums {
   template <class Value>
   void add(const char* label, std::vector<double>& sum, const Value& value) const {
     SKEIN_REQUIRE(sum.size() == n_nodes_.size(), "one sum for each fiber");
-    const Scalars of_node = of_node_;
-    Kokkos::parallel_for(
-        label, Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, of_node.extent_int(0)),
-        KOKKOS_LAMBDA(const int node) { of_node(node) = value(node); });
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, of_node_.extent_int(0)),
+                         SetNumbers<Value>{of_node_, value});
     const std::vector<double> values = to_host(ConstScalars(of_node_));
     auto node = values.begin();
     for (std::size_t f = 0; f < sum.size(); node += n_nodes_[f++])

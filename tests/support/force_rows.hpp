@@ -10,9 +10,9 @@ struct ForceRow {
   void (*configure)(SceneConfig& scene);
 };
 
-/// All fibers but the second, which stays a tube between two chains.
+/// Every other fiber, so that tubes stand between chains.
 inline void turn_into_chains(SceneConfig& scene, const double bending_rigidity, const double shear_couple) {
-  for (const std::size_t f : {std::size_t{0}, std::size_t{2}}) {
+  for (std::size_t f = 0; f < scene.fibers.size(); f += 2) {
     FiberConfig& fiber = scene.fibers[f];
     fiber.model = FiberModel::chain;
     fiber.nodes_per_section = 1;
