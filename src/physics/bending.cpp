@@ -47,18 +47,20 @@ SKEIN_INLINE_FUNCTION EndForces forces_of(const double resistance, const Link& a
   return {-resistance * a.turn_by(b.direction), resistance * b.turn_by(a.direction)};
 }
 
-/// Their first-order change where the links change by u and v.
+/// The first-order change of link.turn_by(other) where the link changes by v and the other direction by `other_turn`.
+SKEIN_INLINE_FUNCTION Vec3 change_turn(const Link& link, const Vec3 v, const Vec3 other, const Vec3 other_turn) {
+  const Vec3 turn = link.turn_by(v);
+  const double stretch = link.inverse_length * dot(link.direction, v);
+  return link.turn_by(other_turn) -
+         link.inverse_length * (dot(turn, other) * link.direction + dot(link.direction, other) * turn) -
+         stretch * link.turn_by(other);
+}
+
+/// The first-order change of the forces where the links change by u and v.
 SKEIN_INLINE_FUNCTION EndForces changes_of(const double resistance, const Link& a, const Link& b, const Vec3 u,
                                            const Vec3 v) {
-  const auto change_of = [](const Link& link, const Vec3 other, const Vec3 own_change, const Vec3 other_turn) {
-    const Vec3 turn = link.turn_by(own_change), direction = link.direction;
-    const double stretch = link.inverse_length * dot(direction, own_change);
-    return link.turn_by(other_turn) -
-           link.inverse_length * (dot(turn, other) * direction + dot(direction, other) * turn) -
-           stretch * link.turn_by(other);
-  };
-  return {-resistance * change_of(a, b.direction, u, b.turn_by(v)),
-          resistance * change_of(b, a.direction, v, a.turn_by(u))};
+  return {-resistance * change_turn(a, u, b.direction, b.turn_by(v)),
+          resistance * change_turn(b, v, a.direction, a.turn_by(u))};
 }
 
 /// The forces at each bend.

@@ -19,6 +19,7 @@ namespace skein {
 namespace {
 
 constexpr int n_sections_measured = 320;
+constexpr double radii_measured = 120.0;
 constexpr double least_spacing = 0.5;  ///< in radii: blobs of nodes that are closer can hardly be told apart
 
 /// Force or torque over the velocity of a straight rigid chain in a fluid of viscosity 1.
@@ -135,10 +136,11 @@ ChainMatch match_chain(const FiberConfig& fiber, const double viscosity) {
                     "chain_nodes too many",
                     spacing, least_spacing));
   FiberConfig unit_tube = describe_tube(fiber);
-  unit_tube.sections = std::min(fiber.sections, n_sections_measured);
   unit_tube.radius = 1.0;
   unit_tube.blob /= radius;
   unit_tube.spacing /= radius;
+  const double in_radii = std::max(2.0, std::ceil(radii_measured / compute_section_spacing(unit_tube)));
+  unit_tube.sections = static_cast<int>(std::min({1.0 * fiber.sections, 1.0 * n_sections_measured, in_radii}));
   const Fiber tube = make_fibers({unit_tube}).front();
   const double length = tube.length();
   const int n_nodes = std::max(3, static_cast<int>(std::round(length / spacing)));
