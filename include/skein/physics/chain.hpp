@@ -13,8 +13,8 @@ struct ChainMatch {
   double axial = 0.0;         ///< ... and along itself
 };
 
-/// From rigid tubes and rigid chains in double. Of long tubes a piece of 320 sections, or 120 radii, is looked at: what lies farther
-/// apart adds nothing to blob and couple.
+/// From rigid tubes and rigid chains in double. Of long tubes a piece of 320 sections, or 120 radii, is looked at: what
+/// lies farther apart adds nothing to blob and couple.
 /// @param fiber  a chain that stands for a tube
 /// @throws Error(scene_error) where the tube's blob is too large, the tube too short, or no blob of the chain matches
 /// it
