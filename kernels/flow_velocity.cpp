@@ -2,7 +2,7 @@
 
 #include <skein/core/error.hpp>
 
-#include <cmath>
+#include "kernels/flow_gradient.hpp"
 
 namespace skein {
 namespace {
@@ -44,20 +44,8 @@ void add_flow_velocity(const Space& space, const FlowTerms& terms, const ConstVe
 }
 
 FlowGradient compute_flow_gradient(const FlowTerm& term, const Vec3 position) {
-  const Vec3 d = position - term.origin;
-  switch (term.shape) {
-    case FlowShape::linear:
-      return {term.gradient_x, term.gradient_y, term.gradient_z};
-    case FlowShape::parabolic:
-      return {Vec3{0.0, -term.rate * d.y / term.size, 0.0}, Vec3{}, Vec3{}};
-    case FlowShape::cellular: {
-      const double k = pi / term.size;
-      const double along = term.rate * std::cos(k * d.x) * std::cos(k * d.y);
-      const double across = term.rate * std::sin(k * d.x) * std::sin(k * d.y);
-      return {Vec3{along, -across, 0.0}, Vec3{across, -along, 0.0}, Vec3{}};
-    }
-  }
-  throw Error(ExitCode::internal, "compute_flow_gradient knows no such shape");
+  const GradientRows rows = gradient_of(term, position);
+  return {rows.x, rows.y, rows.z};
 }
 
 #define SKEIN_INSTANTIATE(S) \

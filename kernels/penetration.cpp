@@ -50,6 +50,7 @@ struct PenetrationSearch {
     enclose<Space>(surfaces.ring_low, surfaces.ring_high, first, end, low, high);
     const int n_fibers = surfaces.sections.fiber.extent_int(0);
     for (int tube = 0; tube < n_fibers; ++tube) {
+      if (surfaces.sections.fiber(tube).nodes_per_section < 3) continue;  // chains have no surface to be inside of
       if (!touch(low, high, surfaces.fiber_low, surfaces.fiber_high, tube)) continue;
       const HiddenPrisms hidden = tube == f ? hidden_from(fiber, first, end) : HiddenPrisms{};
       if (!is_near_some_block(low, high, tube, hidden, [](int, int) { return true; })) continue;

@@ -88,7 +88,7 @@ Verb make_bench_verb() {
   return {"bench",
           "Measure what this machine and this program can do",
           {make_argument("what", &options->what, "",
-                         "ladder: tubes of 4 to 24 nodes on a section, errors against cost; plan: what "
+                         "ladder: chains and tubes of 4 to 24 nodes on a section, errors against cost; plan: what "
                          "'skein plan' promises of scenes, and what comes of it")
                .among({"ladder", "plan"})
                .require(),

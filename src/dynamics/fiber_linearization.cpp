@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/dynamics/fiber_linearization.hpp>
+#include <skein/fibers/start_shape.hpp>
 
 #include "dynamics/near_damping.hpp"
 
@@ -46,7 +47,9 @@ std::vector<FiberLinearization::Frame> FiberLinearization::make_frames(const std
       Frame frame;
       frame.axis[0] = normalize(centre[std::min(s + 1, n_sections - 1)] - centre[std::max(s - 1, 0)], {1.0, 0.0, 0.0});
       const Vec3 to_node = position[fiber.first_node + s * n] - centre[s];
-      frame.axis[1] = normalize(to_node - dot(to_node, frame.axis[0]) * frame.axis[0], {0.0, 1.0, 0.0});
+      // A chain has no node beside its centreline: any direction across serves, it resists all bends alike.
+      frame.axis[1] = n == 1 ? make_fiber_axes(frame.axis[0], 0.0).angle_0
+                             : normalize(to_node - dot(to_node, frame.axis[0]) * frame.axis[0], {0.0, 1.0, 0.0});
       frame.axis[2] = cross(frame.axis[0], frame.axis[1]);
       frames.push_back(frame);
     }

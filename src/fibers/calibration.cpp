@@ -109,6 +109,15 @@ double measure_infinite_bending(const Fiber& fiber, const double curvature) {
          (curvature * curvature * fiber.spacing());
 }
 
+/// A chain is the beam that its keys say; it has no sections that could change, and does not twist.
+BeamStiffness take_chain_stiffness(const Fiber& fiber) {
+  const double factor = mean_factor(make_spring_network(fiber));
+  BeamStiffness stiffness;
+  stiffness.bending = stiffness.infinite_bending = stiffness.relaxed_bending = factor * fiber.config.bending_rigidity;
+  stiffness.axial = stiffness.relaxed_axial = factor * fiber.config.spring_stiffness;
+  return stiffness;
+}
+
 }  // namespace
 
 std::vector<Vec3> make_bent_nodes(const Fiber& fiber, const double curvature) {
@@ -136,6 +145,7 @@ double measure_bending_rigidity(const Fiber& fiber, const double curvature) {
 }
 
 BeamStiffness measure_beam_stiffness(const Fiber& fiber) {
+  if (fiber.config.model == FiberModel::chain) return take_chain_stiffness(fiber);
   const double curvature = small_bend / fiber.config.radius;
   const double radius = fiber.config.radius;
   BeamStiffness stiffness;

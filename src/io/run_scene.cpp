@@ -14,7 +14,14 @@
 namespace skein {
 
 SceneConfig read_run_scene(const RunFolder& folder) {
-  return read_scene_text(read_file(folder.scene()), folder.scene().string(), {}).config;
+  const SceneConfig scene = read_scene_text(read_file(folder.scene()), folder.scene().string(), {}).config;
+  for (const FiberConfig& fiber : scene.fibers)
+    if (fiber.stands_for_tube())
+      throw Error(ExitCode::damaged_data,
+                  fmt::format("'{}' has a chain that stands for a tube; runs write numbers in its stead: the file was "
+                              "changed since. Put it back.",
+                              folder.scene().string()));
+  return scene;
 }
 
 void check_scene_is_of_run(const RunFolder& folder) {

@@ -14,6 +14,8 @@ using ForceList = std::vector<std::unique_ptr<Force>>;
 // Every kind of force: what a scene asks for of it is appended to the list, or nothing. A new kind is a source of its
 // own, a line here and a row in force_table.cpp.
 void append_springs(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
+void append_bending(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
+void append_shear_couple(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_repulsion(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_gravity(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_tethers(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);

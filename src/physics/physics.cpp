@@ -1,3 +1,4 @@
+#include <skein/physics/chain.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 #include <skein/physics/mobility_choice.hpp>
@@ -69,7 +70,8 @@ std::string Physics::describe_forces() const {
   return text;
 }
 
-Physics make_physics(const SceneConfig& scene) {
+Physics make_physics(const SceneConfig& asked) {
+  const SceneConfig scene = resolve_chains(asked);
   std::vector<Fiber> fibers = make_fibers(scene.fibers);
   Sections sections(fibers);
   Scalars blob = to_device("skein::Physics::blob", make_blobs(fibers));

@@ -96,6 +96,17 @@ Eigen::LLT<Eigen::MatrixXd> factor(const Fiber& fiber, const int mode, const dou
   return factor;
 }
 
+/// @param forces  of mode 1 that hold the tube in a shear along it
+double find_couple_within(const Fiber& fiber, const Eigen::VectorXd& forces) {
+  const int n = fiber.config.sections, middle = n / 2;
+  const double square = 0.5 * fiber.config.nodes_per_section;
+  // Forces across, (cos, -sin) as for a shift, on the sections before; they and the couple change slowly here.
+  double across = 0.0;
+  for (int s = 0; s < middle; ++s) across += square * (forces[3 * s] - forces[3 * s + 1]);
+  across += 0.5 * square * (forces[3 * middle] - forces[3 * middle + 1]);
+  return square * fiber.config.radius * forces[3 * middle + 2] / fiber.spacing() + across;
+}
+
 }  // namespace
 
 double RigidTubeDrag::effective_aspect_ratio() const { return std::sqrt(torque_across / torque_along); }
@@ -122,6 +133,7 @@ RigidTubeDrag measure_rigid_tube(const Fiber& fiber, const double viscosity) {
   drag.turning = turn.dot(forces);
   drag.torque_across = grows_along.dot(forces);
   drag.torque_along = -grows_across.dot(forces);
+  drag.couple_within = find_couple_within(fiber, across.solve(grows_across));
   return drag;
 }
 

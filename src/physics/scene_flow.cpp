@@ -25,7 +25,7 @@ double rise(const double time, const double start, const double ramp) {
   return share * share * (3.0 - 2.0 * share);
 }
 
-bool is_steady(const FlowConfig& flow) {
+bool keeps_rate(const FlowConfig& flow) {
   return flow.angular_frequency == 0.0 && flow.phase == 0.0 && flow.start == 0.0 && flow.stop == 0.0 &&
          flow.ramp == 0.0;
 }
@@ -56,14 +56,14 @@ void add_gradient(const FlowTerm& term, const Vec3 position, VelocityGradient& s
 
 std::string describe_flow(const FlowConfig& flow) {
   const FlowRow& row = row_of(flow.kind);
-  if (is_steady(flow)) return row.describe_velocity(flow, fmt::format("{:g}", flow.rate));
+  if (keeps_rate(flow)) return row.describe_velocity(flow, fmt::format("{:g}", flow.rate));
   return row.describe_velocity(flow, "r") + ", r = " + describe_course(flow);
 }
 
 }  // namespace
 
 double compute_rate(const FlowConfig& flow, const double time) {
-  if (is_steady(flow)) return flow.rate;
+  if (keeps_rate(flow)) return flow.rate;
   const double on = rise(time, flow.start, flow.ramp);
   const double off = flow.stop > 0.0 ? rise(time, flow.stop, flow.ramp) : 0.0;
   return flow.rate * on * (1.0 - off) * std::cos(flow.angular_frequency * time + flow.phase * std::numbers::pi / 180.0);
@@ -76,13 +76,20 @@ SceneFlow::SceneFlow(const std::vector<FlowConfig>& flows) {
 
 void SceneFlow::add_velocity(const double time, const ConstVectors& position, const Vectors& velocity) const {
   SKEIN_REQUIRE(position.extent(0) == velocity.extent(0), "positions and velocities differ in number");
-  for (std::size_t first = 0; first < flows_.size(); first += FlowTerms::n_allowed) {
-    FlowTerms terms;
-    for (std::size_t f = first; f < flows_.size() && terms.n_terms < FlowTerms::n_allowed; ++f)
-      terms.term[terms.n_terms++] = make_term(flows_[f], time);
-    add_flow_velocity<ExecSpace>(ExecSpace(), terms, position, velocity);
-  }
+  for (const FlowTerms& terms : make_terms(time)) add_flow_velocity<ExecSpace>(ExecSpace(), terms, position, velocity);
 }
+
+std::vector<FlowTerms> SceneFlow::make_terms(const double time) const {
+  std::vector<FlowTerms> batches;
+  for (const FlowConfig& flow : flows_) {
+    if (batches.empty() || batches.back().n_terms == FlowTerms::n_allowed) batches.emplace_back();
+    FlowTerms& terms = batches.back();
+    terms.term[terms.n_terms++] = make_term(flow, time);
+  }
+  return batches;
+}
+
+bool SceneFlow::is_steady() const { return std::all_of(flows_.begin(), flows_.end(), keeps_rate); }
 
 VelocityGradient SceneFlow::gradient(const double time, const Vec3 position) const {
   VelocityGradient sum{};

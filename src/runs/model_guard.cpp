@@ -33,7 +33,7 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
     meet(sharp_hook, sharpest > worst_[sharp_hook], sharpest,
          fmt::format(
              "fiber {} is bent to a radius of {:.3g}, less than the distance of its sections, {:.3g}: the bend is "
-             "not resolved; take more nodes per section, which brings sections closer",
+             "not resolved; take more nodes per section, which brings sections closer, or of a chain more chain_nodes",
              sharpest_fiber, 1.0 / record.curvature_max[sharpest_fiber], spacing_[sharpest_fiber]));
   if (largest_strain > largest_sound_strain)
     meet(strained_spring, largest_strain > worst_[strained_spring], largest_strain,

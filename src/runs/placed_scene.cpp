@@ -3,8 +3,10 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/placement.hpp>
 #include <skein/fibers/start_check.hpp>
+#include <skein/physics/chain.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
+#include <skein/scene/fiber_spacing.hpp>
 
 #include "runs/memory_limit.hpp"
 
@@ -15,8 +17,9 @@ namespace skein {
 namespace {
 
 std::vector<KeyProblem> find_problems(const SceneConfig& scene) {
-  auto problems = find_mobility_problems(scene);
-  const auto starts = find_start_problems(scene);
+  const SceneConfig laid_out = lay_out_chains(scene);
+  auto problems = find_mobility_problems(laid_out);
+  const auto starts = find_start_problems(laid_out);
   problems.insert(problems.end(), starts.begin(), starts.end());
   return problems;
 }
@@ -25,9 +28,9 @@ std::vector<KeyProblem> find_problems(const SceneConfig& scene) {
 
 PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   SceneReading reading = read_scene(file, overrides, find_problems);
-  check_memory(reading.config);
+  check_memory(lay_out_chains(reading.config));
   try {
-    SceneConfig placed = place_fibers(reading.config);
+    SceneConfig placed = place_fibers(resolve_chains(reading.config));
     // They are only known once fibers are placed, and only the file knows where their keys stand.
     const auto problems = find_time_problems(placed);
     if (!problems.empty()) read_scene(file, overrides, [&](const SceneConfig&) { return problems; });

@@ -8,7 +8,7 @@
 
 namespace skein {
 
-/// A scene with each copy of a fiber in its list.
+/// A scene with each copy of a fiber in its list, chains with numbers of their own.
 struct PlacedScene {
   SceneConfig config;
   std::vector<Problem> warnings;

@@ -19,10 +19,21 @@ namespace {
 
 constexpr std::size_t max_described = 10;  // fibers
 
-std::string describe_fiber(const SceneConfig& scene, const double rate, const Fiber& fiber, const int index) {
+std::string describe_chain(const Fiber& fiber, const BeamStiffness& beam, const int index) {
   const FiberConfig& config = fiber.config;
-  const BeamStiffness beam = measure_beam_stiffness(fiber);
-  std::string text = fmt::format(
+  return fmt::format(
+      "fiber {}: a chain of {} nodes, length {:.6g} (centreline {:.6g}), radius {:g}, spacing {:.6g}\n"
+      "  EI {:.6g}, EA {:.6g}, no resistance to twist; couple along a shear {:.4g} a length and {:.4g} at each end, "
+      "times its rate\n"
+      "  rho = R/L {:.4g}, blob/spacing {:.3g}, blob/radius {:.3g}\n",
+      index, config.sections, fiber.length(), fiber.length() - fiber.spacing(), config.radius, fiber.spacing(),
+      beam.bending, beam.axial, config.shear_couple, config.end_couple, config.radius / fiber.length(),
+      config.blob / fiber.spacing(), config.blob / config.radius);
+}
+
+std::string describe_tube(const Fiber& fiber, const BeamStiffness& beam, const int index) {
+  const FiberConfig& config = fiber.config;
+  return fmt::format(
       "fiber {}: {} sections of {} nodes, length {:.6g} (centreline {:.6g}), radius {:g}, spacing {:.6g}, {} springs\n"
       "  with rigid sections, as in the paper: EI {:.6g} (infinite fiber {:.6g}), EA {:.6g}, GJ {:.6g}\n"
       "  at equilibrium, sections free to change shape (infinite fiber): EI {:.6g}, EA {:.6g}\n"
@@ -31,6 +42,29 @@ std::string describe_fiber(const SceneConfig& scene, const double rate, const Fi
       fiber.spacing(), count_springs(make_spring_network(fiber)), beam.bending, beam.infinite_bending, beam.axial,
       beam.torsional, beam.relaxed_bending, beam.relaxed_axial, config.radius / fiber.length(),
       config.blob / fiber.spacing(), config.blob / config.radius);
+}
+
+/// 8 pi mu rate L^4/(c EI) with both logarithms.
+std::string describe_numbers(const Fiber& fiber, const double viscosity, const double rate, const BeamStiffness& beam) {
+  const auto relaxed = compute_elasto_viscous_numbers(fiber, viscosity, rate, beam.relaxed_bending);
+  if (fiber.config.model == FiberModel::chain)
+    return fmt::format(
+        "  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = -ln(rho^2 e)\n",
+        relaxed.with_log_4e_over_rho2, relaxed.with_minus_log_rho2_e);
+  const auto rigid = compute_elasto_viscous_numbers(fiber, viscosity, rate, beam.bending);
+  return fmt::format(
+      "  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
+      "-ln(rho^2 e), by EI of rigid sections;\n"
+      "  {:.4g} and {:.4g} by EI at equilibrium, which tells how the fiber bends\n",
+      rigid.with_log_4e_over_rho2, rigid.with_minus_log_rho2_e, relaxed.with_log_4e_over_rho2,
+      relaxed.with_minus_log_rho2_e);
+}
+
+std::string describe_fiber(const SceneConfig& scene, const double rate, const Fiber& fiber, const int index) {
+  const FiberConfig& config = fiber.config;
+  const BeamStiffness beam = measure_beam_stiffness(fiber);
+  std::string text =
+      config.model == FiberModel::chain ? describe_chain(fiber, beam, index) : describe_tube(fiber, beam, index);
   const auto [softest, stiffest] =
       std::minmax_element(config.stiffness_profile.begin(), config.stiffness_profile.end(),
                           [](const ProfilePoint& a, const ProfilePoint& b) { return a.factor < b.factor; });
@@ -38,16 +72,7 @@ std::string describe_fiber(const SceneConfig& scene, const double rate, const Fi
     text += fmt::format(
         "  the stiffness varies along the fiber, from {:g} to {:g} times spring_stiffness: means are given\n",
         softest->factor, stiffest->factor);
-  if (rate > 0.0) {
-    const auto rigid = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.bending);
-    const auto relaxed = compute_elasto_viscous_numbers(fiber, scene.fluid.viscosity, rate, beam.relaxed_bending);
-    text += fmt::format(
-        "  elasto-viscous number 8 pi mu rate L^4/(c EI): {:.4g} with c = ln(4e/rho^2), {:.4g} with c = "
-        "-ln(rho^2 e), by EI of rigid sections;\n"
-        "  {:.4g} and {:.4g} by EI at equilibrium, which tells how the fiber bends\n",
-        rigid.with_log_4e_over_rho2, rigid.with_minus_log_rho2_e, relaxed.with_log_4e_over_rho2,
-        relaxed.with_minus_log_rho2_e);
-  }
+  if (rate > 0.0) text += describe_numbers(fiber, scene.fluid.viscosity, rate, beam);
   return text;
 }
 

@@ -35,7 +35,7 @@ void check_repulsion(const SceneConfig& scene, const SceneReader& reader, std::v
     return;
   }
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
-    const FiberConfig& fiber = scene.fibers[i];
+    const FiberConfig fiber = lay_out_chain(scene.fibers[i]);
     const double spacing = compute_section_spacing(fiber);
     const double half_width = std::sqrt(4.0 * fiber.radius * (range > 0.0 ? range : thinnest));
     if (half_width >= spacing) continue;
@@ -69,12 +69,26 @@ void check_loads(const std::string& table, const std::vector<Load>& loads, const
     }
     // Copies are made of the list's fibers in turn.
     const std::size_t model = static_cast<std::size_t>(load.fiber) % scene.fibers.size();
-    const int n_sections = scene.fibers[model].sections;
+    const int n_sections = lay_out_chain(scene.fibers[model]).sections;
     if (!reader.is_sound(reader.path_of("fiber", model)) || (load.section >= -n_sections && load.section < n_sections))
       continue;
     reader.add(problems, path + ".section",
                fmt::format("{}.section {}: sections of fiber {} are 0 to {}, or -{} to -1 from the end", path,
                            load.section, load.fiber, n_sections - 1, n_sections));
+  }
+}
+
+void check_torques(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < scene.torques.size(); ++i) {
+    const std::string path = reader.path_of("torque", i);
+    const int fiber = scene.torques[i].fiber;
+    if (!reader.is_sound(path) || scene.fibers.empty() || fiber >= count_fibers(scene)) continue;
+    if (scene.fibers[static_cast<std::size_t>(fiber) % scene.fibers.size()].model == FiberModel::chain)
+      reader.add(
+          problems, path + ".fiber",
+          fmt::format("{}.fiber {}: sections of a chain are points, which no torque turns; [[tether]]s may pull at "
+                      "two of them",
+                      path, fiber));
   }
 }
 
@@ -87,6 +101,7 @@ void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vect
   if (!reader.is_sound("placement")) return;
   check_loads("tether", scene.tethers, scene, reader, problems);
   check_loads("torque", scene.torques, scene, reader, problems);
+  check_torques(scene, reader, problems);
 }
 
 }  // namespace skein

@@ -24,11 +24,48 @@ constexpr double n_frames_allowed = 1e7;
 constexpr double n_steps_allowed = 1e12;
 constexpr double least_duration = 1e-6;  // over the start: less leaves too few digits for steps and frames
 
+/// What a chain and a tube cannot both be asked for.
+void check_model(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
+                 std::vector<Problem>& problems) {
+  const auto reject = [&](const char* key, const std::string& why) {
+    reader.add(problems, path + "." + key, fmt::format("{}.{} {}", path, key, why));
+  };
+  const bool is_tube = fiber.model == FiberModel::tube, is_bare = !is_tube && fiber.nodes_per_section == 1;
+  if (fiber.nodes_per_section < 3 && !is_bare)
+    reject("nodes_per_section",
+           fmt::format("{}: a tube has 3 or more, also one that a chain stands for; 1 is of a chain in its own right",
+                       fiber.nodes_per_section));
+  if (is_bare && fiber.spacing == 0.0)
+    reject("spacing", "must be given: single nodes have no neighbours on a section to take it from");
+  if (is_bare && fiber.reach_along != 1)
+    reject("reach_along", fmt::format("{}: links of a chain join neighbours", fiber.reach_along));
+  const auto keep_bare = [&](const char* key, const double value) {
+    if (!is_bare && value > 0.0)
+      reject(key, "is of a chain with nodes_per_section = 1; a tube's follows from its springs and nodes");
+  };
+  keep_bare("bending_rigidity", fiber.bending_rigidity);
+  keep_bare("shear_couple", fiber.shear_couple);
+  keep_bare("end_couple", fiber.end_couple);
+  if (fiber.chain_nodes == 0) return;
+  if (!fiber.stands_for_tube())
+    reject("chain_nodes", fmt::format("{}: only a chain that stands for a tube, with nodes_per_section = 3 or more, "
+                                      "has another number of nodes than sections",
+                                      fiber.chain_nodes));
+  else if (fiber.chain_nodes < 3)
+    reject("chain_nodes", fmt::format("{}: a chain bends where two links meet, it needs 3", fiber.chain_nodes));
+  else if (lay_out_chain(fiber).spacing < 0.5 * fiber.radius)
+    reject("chain_nodes",
+           fmt::format("{} lie {:.3g} apart, less than half a radius: at most {:.0f} fit", fiber.chain_nodes,
+                       lay_out_chain(fiber).spacing,
+                       std::floor(2.0 * fiber.sections * compute_section_spacing(fiber) / fiber.radius)));
+}
+
 void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems, std::vector<Problem>& warnings) {
   if (!(norm(fiber.direction) >= smallest_direction)) {
     reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
   }
+  if (fiber.nodes_per_section == 1) return;  // blobs of a chain make up for the radius
   const double spacing = std::max(compute_node_spacing(fiber), compute_section_spacing(fiber));
   if (fiber.blob > fiber.radius) {
     reader.add(warnings, path + ".blob",
@@ -75,7 +112,7 @@ void check_node_count(const SceneConfig& scene, const SceneReader& reader, std::
   double n_nodes = 0.0;
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
     if (!reader.is_sound(reader.path_of("fiber", i))) return;
-    const FiberConfig& fiber = scene.fibers[i];
+    const FiberConfig fiber = lay_out_chain(scene.fibers[i]);
     n_nodes += count_copies(scene, i) * fiber.sections * fiber.nodes_per_section;
     if (n_nodes <= n_nodes_allowed) continue;
     reader.add(
@@ -154,6 +191,7 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
   for (std::size_t i = 0; i < scene.fibers.size(); ++i) {
     const std::string path = reader.path_of("fiber", i);
     if (!reader.is_sound(path)) continue;
+    check_model(scene.fibers[i], path, reader, problems);
     check_fiber(scene.fibers[i], path, reader, problems, warnings);
     check_profile(scene.fibers[i].stiffness_profile, path + ".stiffness_profile", reader, problems);
   }

@@ -28,6 +28,17 @@ const Words<FlowKind>& words_of<FlowKind>() {
 }
 
 template <>
+const Words<FiberModel>& words_of<FiberModel>() {
+  static const Words<FiberModel> words = {
+      {"tube", "rings of surface nodes", FiberModel::tube},
+      {"chain",
+       "nodes on the centreline that bend, stretch and drag like the tube of the other keys: hundreds of "
+       "times cheaper, for bends that are wide against the radius",
+       FiberModel::chain}};
+  return words;
+}
+
+template <>
 const Words<PlacementKind>& words_of<PlacementKind>() {
   static const Words<PlacementKind> words = {
       {"as_written", "each [fiber] once, where it says", PlacementKind::as_written},

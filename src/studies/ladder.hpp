@@ -12,7 +12,7 @@ namespace skein {
 /// Which of the paper's fibers are run with how many nodes on a section.
 struct LadderStudy {
   std::vector<double> lengths{0.139, 0.196, 0.523, 0.931};
-  std::vector<int> rungs{24, 18, 12, 9, 6, 5, 4};  ///< the first is what the others are compared with
+  std::vector<int> rungs{24, 18, 12, 9, 6, 5, 4, 1};  ///< the first is what the others are compared with
 };
 
 /// One run of the study.

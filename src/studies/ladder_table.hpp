@@ -5,8 +5,8 @@
 
 namespace skein {
 
-/// Errors of tubes of so many nodes on a section against those of 24, the paper's fibers in shear; by
-/// `skein bench ladder`, whose table is perf/ladder.csv.
+/// Errors of tubes of so many nodes, 1 being the chain, on a section against those of 24, the paper's fibers in shear;
+/// by `skein bench ladder`, whose table is perf/ladder.csv.
 struct LadderRow {
   int nodes_per_section;
   double error;    ///< the largest of shape (over the length), half period, hook radius and snaking speed

@@ -46,8 +46,11 @@ class Planner {
   void list_candidates() {
     int finest = 0;
     for (const FiberConfig& fiber : scene_.fibers) finest = std::max(finest, fiber.nodes_per_section);
+    const bool has_torque = !scene_.torques.empty();
     std::vector<int> rungs;
-    for (const LadderRow& row : list_ladder()) rungs.push_back(row.nodes_per_section);
+    if (finest > 1 && !has_torque) rungs.push_back(1);  // a chain knows no twist
+    for (const LadderRow& row : list_ladder())
+      if (row.nodes_per_section > 1) rungs.push_back(row.nodes_per_section);
     rungs.push_back(finest);
     std::sort(rungs.begin(), rungs.end());
     rungs.erase(std::unique(rungs.begin(), rungs.end()), rungs.end());

@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/physics/chain.hpp>
 #include <skein/physics/rigid_tube.hpp>
 #include <skein/scene/fiber_spacing.hpp>
 
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -68,11 +71,37 @@ int scale_section(const int section, const int before, const int after) {
   return section >= 0 ? scale(section) : -1 - scale(-1 - section);
 }
 
+/// Tethers and torques of every fiber at the places that they had, now that fibers have other numbers of sections.
+/// @param before  [n_fibers], their numbers then
+void move_loads(SceneConfig& scene, const std::vector<int>& before) {
+  const auto rescale = [&](auto& loads) {
+    for (auto& load : loads) {
+      const std::size_t fiber = static_cast<std::size_t>(load.fiber) % scene.fibers.size();
+      load.section = scale_section(load.section, before[fiber], scene.fibers[fiber].sections);
+    }
+  };
+  rescale(scene.tethers);
+  rescale(scene.torques);
+}
+
+SceneConfig make_chain_scene(SceneConfig scene) {
+  std::vector<int> before;
+  for (FiberConfig& fiber : scene.fibers) {
+    before.push_back(fiber.sections);
+    fiber.model = FiberModel::chain;
+  }
+  scene = resolve_chains(scene);
+  move_loads(scene, before);
+  return scene;
+}
+
 }  // namespace
 
 RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
   RungFit fit{fiber};
   if (fiber.nodes_per_section == nodes_per_section) return fit;
+  if (fiber.model == FiberModel::chain)
+    throw Error(ExitCode::scene_error, "a chain has no surface that other numbers of nodes could resolve");
   const Fiber fine = make_fibers({fiber})[0];
   FiberConfig& coarse = fit.fiber;
   coarse.nodes_per_section = nodes_per_section;
@@ -97,6 +126,7 @@ RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
 }
 
 SceneConfig make_rung_scene(SceneConfig scene, const int nodes_per_section) {
+  if (nodes_per_section == 1) return make_chain_scene(std::move(scene));
   std::vector<int> before;
   std::vector<std::pair<FiberConfig, FiberConfig>> known;  // fibers of a suspension are alike but for their places
   for (FiberConfig& fiber : scene.fibers) {
@@ -114,14 +144,7 @@ SceneConfig make_rung_scene(SceneConfig scene, const int nodes_per_section) {
     fiber.blob = fitted.blob;
     fiber.reach_around = fitted.reach_around;
   }
-  const auto rescale = [&](auto& loads) {
-    for (auto& load : loads) {
-      const std::size_t fiber = static_cast<std::size_t>(load.fiber) % scene.fibers.size();
-      load.section = scale_section(load.section, before[fiber], scene.fibers[fiber].sections);
-    }
-  };
-  rescale(scene.tethers);
-  rescale(scene.torques);
+  move_loads(scene, before);
   return scene;
 }
 

@@ -20,7 +20,8 @@ struct RungFit {
 /// @throws Error(scene_error) where no blob serves, between a fifth of the nodes' distance and two and a half of it
 RungFit fit_rung(const FiberConfig& fiber, int nodes_per_section);
 
-/// The scene with every fiber so; sections that tethers hold and torques turn are the nearest ones.
+/// The scene with every fiber so, or, with 1, as a chain (see resolve_chains); sections that tethers hold and torques
+/// turn are the nearest ones.
 SceneConfig make_rung_scene(SceneConfig scene, int nodes_per_section);
 
 }  // namespace skein

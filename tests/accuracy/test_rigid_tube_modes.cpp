@@ -54,6 +54,17 @@ TEST(RigidTubeDrag, OfAllNodesAtOnceIsThatOfTheModes) {
     expect_same(drag.torque_across, product(turn, across));
     expect_same(drag.torque_along, product(turn, along));
     expect_same(drag.turning, drag.torque_across + drag.torque_along);
+
+    // By parts: forces F across at x turn like couples of minus the sum of those before.
+    const Eigen::VectorXd forces = mobility.solve(at_nodes(points, along));
+    const int middle = config.sections / 2;
+    double couple = 0.0, across_before = 0.0;
+    for (int s = 0; s <= middle; ++s)
+      for (int i = s * n_nodes; i < (s + 1) * n_nodes; ++i) {
+        across_before += (s < middle ? 1.0 : 0.5) * forces[3 * i + 1];
+        if (s == middle) couple -= points[i].y() * forces[3 * i];
+      }
+    expect_same(drag.couple_within, couple / make_fibers({config})[0].spacing() - across_before);
   }
 }
 

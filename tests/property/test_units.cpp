@@ -59,7 +59,10 @@ SceneConfig make_random_scene(Random& random) {
   scene.flows.clear();
   for (auto n = random.bits() % 3; n > 0; --n) scene.flows.push_back(make_random_flow(random));
   scene.fibers = {make_random_fiber(random, {})};
-  if (random.bits() % 2 == 0) scene.fibers.push_back(make_random_fiber(random, {0.02, 0.01, -0.02}));
+  if (random.bits() % 2 == 0) {
+    scene.fibers.push_back(make_random_fiber(random, {0.02, 0.01, -0.02}));
+    if (random.bits() % 2 == 0) scene.fibers.back().model = FiberModel::chain;
+  }
   if (random.bits() % 2 == 0) scene.repulsion = {random.log_uniform(0.1, 10.0), random.uniform(0.002, 0.01)};
   if (random.bits() % 3 == 0) scene.gravity = {random.log_uniform(0.1, 10.0), random.direction()};
   if (random.bits() % 3 == 0)

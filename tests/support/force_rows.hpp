@@ -10,9 +10,39 @@ struct ForceRow {
   void (*configure)(SceneConfig& scene);
 };
 
+/// Every other fiber, so that tubes stand between chains.
+inline void turn_into_chains(SceneConfig& scene, const double bending_rigidity, const double shear_couple) {
+  for (std::size_t f = 0; f < scene.fibers.size(); f += 2) {
+    FiberConfig& fiber = scene.fibers[f];
+    fiber.model = FiberModel::chain;
+    fiber.nodes_per_section = 1;
+    fiber.spacing = 0.005;
+    fiber.bending_rigidity = bending_rigidity;
+    fiber.shear_couple = shear_couple;
+    fiber.end_couple = 0.01 * shear_couple;
+    fiber.stiffness_profile = {{0.2, 1.0}, {0.8, 1.7}};
+  }
+}
+
 /// Every kind of force: a new one joins the property test and the comparison of thread counts by one row.
 inline const ForceRow force_rows[] = {
     {"springs", [](SceneConfig&) {}},
+    {"chain_links", [](SceneConfig& scene) { turn_into_chains(scene, 0.0, 0.0); }},
+    {"bending", [](SceneConfig& scene) { turn_into_chains(scene, 3e-6, 0.0); }},
+    {"shear_couple",
+     [](SceneConfig& scene) {
+       turn_into_chains(scene, 0.0, 2e-4);
+       scene.flows = {{},
+                      {.kind = FlowKind::poiseuille, .rate = 1.3, .size = 0.07},
+                      {.kind = FlowKind::vortices, .rate = -0.9, .center = {0.01, 0.02, 0.0}, .size = 0.05},
+                      {.kind = FlowKind::uniaxial_extension, .rate = 0.7},
+                      {.kind = FlowKind::rotation, .rate = 1.1}};
+     }},
+    {"unsteady_shear_couple",
+     [](SceneConfig& scene) {
+       turn_into_chains(scene, 0.0, 2e-4);
+       scene.flows.front().angular_frequency = 3.0;
+     }},
     {"repulsion",
      [](SceneConfig& scene) {
        scene.repulsion = {2.3, 0.0071};

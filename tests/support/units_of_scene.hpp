@@ -21,7 +21,9 @@ inline SceneConfig rescale(SceneConfig scene, const Units& units) {
   }
   for (FiberConfig& fiber : scene.fibers) {
     fiber.radius *= length, fiber.blob *= length, fiber.spring_stiffness *= force;
-    fiber.center = length * fiber.center;
+    fiber.center = length * fiber.center, fiber.spacing *= length;
+    fiber.bending_rigidity *= force * length * length;
+    fiber.shear_couple *= force * time, fiber.end_couple *= force * length * time;
   }
   scene.repulsion.strength *= force / length, scene.repulsion.range *= length;
   scene.gravity.weight *= force / length;

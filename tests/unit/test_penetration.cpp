@@ -253,5 +253,19 @@ TEST(Penetration, OfOnePartOfAFiberInAnotherIsSeenAndThatOfNeighboursIsNot) {
   EXPECT_EQ(penetration_of(hook, make_coil(hook[0], 0.5 * radius, 0.0)).nodes, 0);
 }
 
+// Its nodes may be inside of a tube; a tube's nodes are not inside of it, whatever crosses what.
+TEST(Penetration, OfAChainIsThatOfItsNodesAlone) {
+  FiberConfig chain = make_config(21, 1);
+  chain.model = FiberModel::chain;
+  chain.spacing = 0.03;
+  chain.direction = {0.0, 1.0, 0.0};
+  const auto fibers = make_fibers({make_config(30), chain, make_config(30, 6)});
+  auto nodes = make_surface_nodes(fibers);
+  for (int i = fibers[2].first_node; i < fibers[2].first_node + fibers[2].n_nodes(); ++i) nodes[i].z += 10.0 * radius;
+  const Penetration found = penetration_of(fibers, nodes);
+  EXPECT_EQ(found.nodes, 3);  // at y = -0.03, 0 and 0.03
+  EXPECT_NEAR(found.depth, radius * std::cos(pi / 18), 1e-14);
+}
+
 }  // namespace
 }  // namespace skein

@@ -39,8 +39,10 @@ SceneConfig make_unusual_scene() {
   scene.flows = {
       {FlowKind::vortices, -1e-7 / 7.0, {1.0 / 3.0, -2.0, 1e-9}, 0.7 / 3.0, -1.0 / 7.0, 33.3, 1.0 / 9.0, 2.2, 1e-3},
       {.kind = FlowKind::none, .rate = 0.1}};
-  scene.fibers.resize(2);
-  scene.fibers[0] = {113, 9, 0.1 + 0.2, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0}, {0.0, 2.0, -1e-3 / 9.0}, -33.3};
+  scene.fibers.resize(3);
+  scene.fibers[0] = {
+      FiberModel::tube,        113,  9, 0.1 + 0.2, 0.7 / 3.0, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0},
+      {0.0, 2.0, -1e-3 / 9.0}, -33.3};
   scene.fibers[1].blob = 5e-3 / 1.7;
   scene.fibers[1].start_mode = 3;
   scene.fibers[1].start_amplitude = 0.1 / 7.0;
@@ -52,6 +54,12 @@ SceneConfig make_unusual_scene() {
   scene.fibers[1].reach_along = 3;
   scene.fibers[1].reach_around = 4;
   scene.fibers[1].spacing = 2e-3 / 3.0;
+  scene.fibers[2].model = FiberModel::chain;
+  scene.fibers[2].nodes_per_section = 1;
+  scene.fibers[2].spacing = 1.0 / 70.0;
+  scene.fibers[2].bending_rigidity = 1e-6 / 7.0;
+  scene.fibers[2].shear_couple = 1e-4 / 3.0;
+  scene.fibers[2].end_couple = 1e-6 / 3.0;
   scene.placement = {
       PlacementKind::grid, {0.1, 1.0 / 3.0, -7.0}, {2.0, 3.0, 4.0}, {0.3, 1.0 / 7.0, 2.0}, 7, {3.0, 4.0, 1.0 / 3.0},
       1e-3 / 3.0,          Orientation::random};

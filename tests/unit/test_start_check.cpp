@@ -66,6 +66,19 @@ TEST(StartCheck, WhatIsSaidToBePossibleIs) {
   }
 }
 
+// Links keep their length in every bend: what is bounded is the strain of a tube's surface.
+TEST(StartCheck, ChainsMayBendAsSharplyAsTubes) {
+  SceneConfig scene = make_scene(60, 3, 0.2);
+  FiberConfig& config = scene.fibers[0];
+  config.model = FiberModel::chain;
+  config.nodes_per_section = 1;
+  config.spacing = 0.002;
+  const auto problems = find_start_problems(scene);
+  ASSERT_EQ(problems.size(), 1u);
+  config.start_amplitude = last_number(problems[0].message);
+  EXPECT_TRUE(find_start_problems(scene).empty()) << problems[0].message;
+}
+
 TEST(StartCheck, StrainIsTheLargestOfAllSprings) {
   for (const int reach : {1, 3}) {
     FiberConfig config = make_scene(60, 2, 0.05, 1e-3).fibers[0];

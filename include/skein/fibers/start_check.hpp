@@ -12,7 +12,8 @@ namespace skein {
 /// meets more says so.
 inline constexpr double largest_sound_strain = 0.5;
 
-/// Largest |r/l - 1| of the springs of a fiber whose sections stand so, taken where the fiber is bent most.
+/// Largest |r/l - 1| of the springs of a fiber whose sections stand so, taken where the fiber is bent most; of a chain
+/// that of the surface of a tube of its radius.
 /// @param poses  [fiber.config.sections]
 double measure_start_strain(const Fiber& fiber, const std::vector<SectionPose>& poses);
 

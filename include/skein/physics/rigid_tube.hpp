@@ -15,6 +15,10 @@ struct RigidTubeDrag {
   /// where they lie along it and grow across it: this one is a couple on the surface, which a line does not feel.
   double torque_across = 0.0, torque_along = 0.0;  ///< force * length * time
 
+  /// torque_along on a length of the tube's middle: the couple on its surface, and the forces across the tube nearer to
+  /// its end. The rest of torque_along sits at the ends. Force * time
+  double couple_within = 0.0;
+
   /// Of the ellipsoid that turns alike in a shear (Jeffery 1922; Cox, J. Fluid Mech. 45, 625 (1971)).
   double effective_aspect_ratio() const;
 };

@@ -6,6 +6,8 @@
 
 namespace skein {
 
+struct FlowTerms;
+
 /// The sum of the flows that a scene names, each with its own course in time.
 class SceneFlow final : public BackgroundFlow {
  public:
@@ -18,6 +20,12 @@ class SceneFlow final : public BackgroundFlow {
   double time_scale() const override;
   void add_course(TimeCourse& course) const override;
   std::string describe() const override;
+
+  /// True where no flow changes with time.
+  bool is_steady() const;
+
+  /// The flows at one moment, as kernels take them: as many as one launch adds up in each.
+  std::vector<FlowTerms> make_terms(double time) const;
 
  private:
   std::vector<FlowConfig> flows_;  ///< without those at rest

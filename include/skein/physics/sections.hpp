@@ -49,7 +49,8 @@ class Sections {
 
   /// Nodes inside of surfaces, which are those of the prisms between neighbouring rings of nodes, however they are
   /// deformed, closed at both ends; distant parts of a fiber are those of Fiber::distant_sections. Exact: unlike the
-  /// gap, it does not take sections for spheres.
+  /// gap, it does not take sections for spheres. A chain has no surface: its nodes may be inside of others, none are
+  /// inside of it.
   Penetration compute_penetration(const ConstVectors& position) const;
 
   /// Centroids, and boxes about blocks of sections and about fibers, of nodes at `position`: for kernels.

@@ -12,6 +12,9 @@ namespace skein {
 /// The flow far from all fibers; see FlowConfig for the velocities.
 enum class FlowKind { shear, planar_extension, uniaxial_extension, rotation, poiseuille, vortices, none };
 
+/// What a fiber is made of.
+enum class FiberModel { tube, chain };
+
 /// Where fibers stand.
 enum class PlacementKind { as_written, grid, random };
 

@@ -67,6 +67,8 @@ const Words<Enum>& words_of();
 template <>
 const Words<FlowKind>& words_of<FlowKind>();
 template <>
+const Words<FiberModel>& words_of<FiberModel>();
+template <>
 const Words<PlacementKind>& words_of<PlacementKind>();
 template <>
 const Words<Orientation>& words_of<Orientation>();

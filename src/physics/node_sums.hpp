@@ -1,0 +1,46 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+#include <skein/core/error.hpp>
+#include <skein/fibers/fiber.hpp>
+
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// numbers[node] = value(node).
+template <class Value>
+struct SetNumbers {
+  Scalars numbers;
+  Value value;
+  KOKKOS_INLINE_FUNCTION void operator()(const int node) const { numbers(node) = value(node); }
+};
+
+/// A number of each node, summed over each fiber: nodes in order, whatever the number of threads. Holds scratch.
+class NodeSums {
+ public:
+  NodeSums(const std::string& name, const std::vector<Fiber>& fibers, const std::size_t n_nodes)
+      : of_node_(name, n_nodes) {
+    for (const Fiber& fiber : fibers) n_nodes_.push_back(fiber.n_nodes());
+  }
+
+  /// sum[fiber] += value(node) over its nodes. Waits for the device. @param sum  [n_fibers]
+  template <class Value>
+  void add(const char* label, std::vector<double>& sum, const Value& value) const {
+    SKEIN_REQUIRE(sum.size() == n_nodes_.size(), "one sum for each fiber");
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, of_node_.extent_int(0)),
+                         SetNumbers<Value>{of_node_, value});
+    const std::vector<double> values = to_host(ConstScalars(of_node_));
+    auto node = values.begin();
+    for (std::size_t f = 0; f < sum.size(); node += n_nodes_[f++])
+      sum[f] += std::accumulate(node, node + n_nodes_[f], 0.0);
+  }
+
+ private:
+  Scalars of_node_;           ///< [n_nodes]
+  std::vector<int> n_nodes_;  ///< [n_fibers]
+};
+
+}  // namespace skein
