@@ -40,9 +40,8 @@ SceneConfig make_unusual_scene() {
       {FlowKind::vortices, -1e-7 / 7.0, {1.0 / 3.0, -2.0, 1e-9}, 0.7 / 3.0, -1.0 / 7.0, 33.3, 1.0 / 9.0, 2.2, 1e-3},
       {.kind = FlowKind::none, .rate = 0.1}};
   scene.fibers.resize(3);
-  scene.fibers[0] = {
-      FiberModel::tube,        113,  9, 0.1 + 0.2, 0.7 / 3.0, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0},
-      {0.0, 2.0, -1e-3 / 9.0}, -33.3};
+  scene.fibers[0] = {FiberModel::tube,        113,  9, 0.1 + 0.2, 1e-9 / 3.0, 0.2 / 7.0, {1e15, -0.1, 1.0 / 7.0},
+                     {0.0, 2.0, -1e-3 / 9.0}, -33.3};
   scene.fibers[1].blob = 5e-3 / 1.7;
   scene.fibers[1].start_mode = 3;
   scene.fibers[1].start_amplitude = 0.1 / 7.0;
