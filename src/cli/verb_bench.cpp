@@ -26,6 +26,7 @@ struct BenchOptions {
   std::string what;
   std::filesystem::path folder = "bench";
   LadderStudy ladder;
+  std::vector<double> rungs;  ///< empty: the study's own
   std::vector<std::string> scenes;
   std::vector<double> tolerances{0.1, 0.03, 0.01};
   int threads = 0;
@@ -42,7 +43,8 @@ void print_point(const LadderPoint& point) {
   std::fflush(stdout);
 }
 
-int bench_ladder(const BenchOptions& options) {
+int bench_ladder(BenchOptions& options) {
+  if (!options.rungs.empty()) options.ladder.rungs.assign(options.rungs.begin(), options.rungs.end());
   const Runtime runtime(options.threads);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
@@ -77,9 +79,7 @@ int bench_plans(const BenchOptions& options) {
   return 0;
 }
 
-int bench(const BenchOptions& options) {
-  return options.what == "ladder" ? bench_ladder(options) : bench_plans(options);
-}
+int bench(BenchOptions& options) { return options.what == "ladder" ? bench_ladder(options) : bench_plans(options); }
 
 }  // namespace
 
@@ -94,6 +94,9 @@ Verb make_bench_verb() {
                .require(),
            make_argument("-o,--output", &options->folder, "FOLDER", "Folder for table and picture"),
            make_argument("--lengths", &options->ladder.lengths, "L,...", "Of the paper's fibers").within(0.02, 3.0),
+           make_argument("--rungs", &options->rungs, "N,...",
+                         "Nodes on a section, 1 for the chain; the first is what the others are compared with")
+               .within(1, 24),
            make_argument("--scene", &options->scenes, "FILE", "To be planned; once for each"),
            make_argument("--tolerances", &options->tolerances, "E,...", "Of the plans").within(1e-4, 0.5),
            make_threads_option(&options->threads), make_flag("--no-plots", &options->no_plots, "Draw nothing")},

@@ -41,6 +41,7 @@ inline const ForceRow force_rows[] = {
     {"unsteady_shear_couple",
      [](SceneConfig& scene) {
        turn_into_chains(scene, 0.0, 2e-4);
+       if (scene.flows.empty()) scene.flows.emplace_back();
        scene.flows.front().angular_frequency = 3.0;
      }},
     {"repulsion",

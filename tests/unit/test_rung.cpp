@@ -79,10 +79,10 @@ TEST(Rung, OfASceneHoldsAndTurnsTheSamePlaces) {
 }
 
 TEST(Rung, IsRefusedWhereNoBlobServes) {
-  FiberConfig thick = make_paper_scene(40, 30.0).fibers[0];
+  FiberConfig thick = make_paper_scene(20, 30.0).fibers[0];
   thick.blob = 0.0049;
   thick.nodes_per_section = 3;
-  EXPECT_THROW(fit_rung(thick, 24), Error);
+  EXPECT_THROW(fit_rung(thick, 48), Error);
 }
 
 }  // namespace
