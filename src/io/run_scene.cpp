@@ -14,7 +14,7 @@
 namespace skein {
 
 SceneConfig read_run_scene(const RunFolder& folder) {
-  const SceneConfig scene = read_scene_text(read_file(folder.scene()), folder.scene().string(), {}).config;
+  SceneConfig scene = read_scene_text(read_file(folder.scene()), folder.scene().string(), {}).config;
   for (const FiberConfig& fiber : scene.fibers)
     if (fiber.stands_for_tube())
       throw Error(ExitCode::damaged_data,
