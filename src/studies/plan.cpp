@@ -20,7 +20,8 @@ namespace {
 
 constexpr int n_intervals = 400;        ///< of a pilot's frames: snaking is measured in a few units of time
 constexpr double share_of_time = 0.25;  ///< of the tolerance, that steps may use up
-constexpr double least_rest = 0.5;      ///< of a difference, that the upper rung's own error is taken to be at least
+// The upper rung's own error, over its difference from the lower one: coarse rungs have errors in common.
+constexpr double least_rest = 0.5, largest_rest = 1.5;
 
 /// Pilots of one scene in the time that is left for them.
 class Planner {
@@ -180,7 +181,8 @@ class Planner {
     const double difference = find_largest_error(candidate.found);
     // Phases drift with time: what pilots did not reach is taken to go on as it did.
     const double rest = plan_.end / plan_.pilot_end;
-    const double error_above = std::max(find_ladder_error(above.nodes_per_section), least_rest * difference);
+    const double error_above =
+        std::clamp(find_ladder_error(above.nodes_per_section), least_rest * difference, largest_rest * difference);
     candidate.error = (difference + error_above) * rest + plan_.time_error;
     above.error = error_above * rest + plan_.time_error;
     if (!(candidate.error <= request_.tolerance)) {

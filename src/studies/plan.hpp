@@ -43,8 +43,8 @@ struct Plan {
 };
 
 /// Finds it by pilot runs of the scene, from the coarsest tube on: each is compared with the one above, whose own
-/// error is that of the table of convergence (ladder_table.hpp), or half of the difference where that is more. Steps
-/// are as long as a quarter of the tolerance lets them be, found on the coarsest tube. Needs Kokkos.
+/// error is that of the table of convergence (ladder_table.hpp), between half of the difference and one and a half of
+/// it. Steps are as long as a quarter of the tolerance lets them be, found on the coarsest tube. Needs Kokkos.
 /// @param scene  its fibers are as written
 /// @param say    called with a line before each pilot
 Plan make_plan(const SceneConfig& scene, const PlanRequest& request,

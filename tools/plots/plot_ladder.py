@@ -53,15 +53,18 @@ def draw_length(panel, rows, table):
 
 
 def draw(table):
-    finest = table["nodes_per_section"].max()
     lengths = np.unique(table["length"])
     figure, panels = plt.subplots(1, len(lengths), sharey=True, squeeze=False, layout="constrained",
                                   figsize=(max(3.6, style.WIDTH * len(lengths) / 3.0), 3.8))
     for panel, length in zip(panels[0], lengths):
-        draw_length(panel, (table["length"] == length) & (table["nodes_per_section"] < finest), table)
-        panel.set_title(f"$L = {length:g}$")
-    panels[0, 0].set_ylabel(f"error against {finest:.0f} nodes on a section")
-    figure.legend(*panels[0, -1].get_legend_handles_labels(), loc="outside lower center", ncol=3, frameon=False)
+        rows = table["length"] == length
+        is_compared = np.isfinite(table["shape_error"])
+        reference = table["nodes_per_section"][rows & ~is_compared]
+        draw_length(panel, rows & is_compared, table)
+        panel.set_title(f"$L = {length:g}$, against {reference.max():.0f} nodes")
+    panels[0, 0].set_ylabel("error")
+    figure.get_layout_engine().set(rect=(0.0, 0.13, 1.0, 0.87))
+    figure.legend(*panels[0, -1].get_legend_handles_labels(), loc="lower center", ncol=3, frameon=False)
     return figure
 
 
