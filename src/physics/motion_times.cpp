@@ -51,9 +51,10 @@ double find_relaxation_time(const std::vector<Fiber>& fibers, const double visco
   constexpr double wave_number = 4.7300;  // times the length, of the first bend of a beam with free ends
   double time = infinity;
   for (const Fiber& fiber : fibers) {
-    const double squared = std::pow(fiber.length() / wave_number, 2);
-    time =
-        std::min(time, transverse_drag(fiber, viscosity) * (squared * squared) / measure_beam_stiffness(fiber).bending);
+    const double drag = transverse_drag(fiber, viscosity), squared = std::pow(fiber.length() / wave_number, 2);
+    const BeamStiffness beam = measure_beam_stiffness(fiber);
+    // A chain may have no rigidity against bends: then it is a stretch that relaxes.
+    time = std::min(time, beam.bending > 0.0 ? drag * (squared * squared) / beam.bending : drag * squared / beam.axial);
   }
   return time;
 }

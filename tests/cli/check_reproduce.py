@@ -41,21 +41,19 @@ def check_figures(program, folder):
     first = (folder / "L0139_6/checkpoints").stat().st_mtime_ns
     rows = list(csv.DictReader(open(folder / "comparison.csv", newline="")))
     check(any(row["verdict"] == "not reached" for row in rows), "all rows are reached by a run that was stopped")
-    # Such fibers turn some percent too slowly: rows about angles at given times differ, the kinds of motion do not.
-    result = skein(*words, codes=(NUMERICAL,))
+    result = skein(*words)
     check((folder / "L0139_6/checkpoints").stat().st_mtime_ns >= first, "the first run was begun again")
     rows = {row["quantity"]: row for row in csv.DictReader(open(folder / "comparison.csv", newline=""))}
-    check(all(row["verdict"] in ("agrees", "DIFFERS") for row in rows.values()), "rows are not reached")
-    for quantity in ("L = 0.139: regime", "L = 0.196: regime", "L = 0.523: regime", "L = 0.139: extrema of curvature",
-                     "L = 0.196: extrema of curvature", "L = 0.523: extrema of curvature", "L = 0.523: hooks at t = 8",
-                     "period at 0.523 over that at 0.196: grows"):
-        check(rows[quantity]["verdict"] == "agrees", f"{quantity}: {rows[quantity]}")
+    check(len(rows) > 40, f"{len(rows)} rows")
+    # Such fibers answer as those of eighteen nodes do.
+    for quantity, row in rows.items():
+        check(row["verdict"] == "agrees", f"{quantity}: {row}")
     check(f"{len(rows)} rows: " in result.stdout, result.stdout)
     for name in ("figure2_6.png", "figure3_6.png", "figure7_6.png"):
         check((folder / name).stat().st_size > 10000, f"{name} is not drawn: {result.stderr}")
     index = folder / "L0523_6/trajectory.h5"
     written = index.stat().st_mtime_ns
-    skein(*words, "--no-plots", codes=(NUMERICAL,))
+    skein(*words, "--no-plots")
     check(index.stat().st_mtime_ns == written, "a run that was done is run again")
 
 
