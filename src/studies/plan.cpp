@@ -181,8 +181,9 @@ class Planner {
     const double difference = find_largest_error(candidate.found);
     // Phases drift with time: what pilots did not reach is taken to go on as it did.
     const double rest = plan_.end / plan_.pilot_end;
+    const double table = find_ladder_error(above.nodes_per_section);
     const double error_above =
-        std::clamp(find_ladder_error(above.nodes_per_section), least_rest * difference, largest_rest * difference);
+        std::max(least_rest * table, std::clamp(table, least_rest * difference, largest_rest * difference));
     candidate.error = (difference + error_above) * rest + plan_.time_error;
     above.error = error_above * rest + plan_.time_error;
     if (!(candidate.error <= request_.tolerance)) {
