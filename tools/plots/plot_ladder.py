@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Draws what `skein bench ladder` found: error against cost of tubes of fewer nodes, a panel for each length."""
 
-import argparse
 import os
 import sys
 
@@ -14,8 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import style
-from plot_phases import read_table
-from script import attempt, print_path
+from table import draw_table_of
 
 SERIES = (("shape", "o", "shape, over $L$"), ("half_period", "s", "half period"), ("hook_radius", "^", "hook radius"),
           ("snaking_speed", "D", "snaking speed"), ("curvature_max", "x", "largest curvature"))
@@ -68,19 +66,5 @@ def draw(table):
     return figure
 
 
-def draw_table(options):
-    figure = draw(read_table(os.path.join(options.folder, "ladder.csv")))
-    print_path(style.save(figure, options.folder, "ladder", options.format), options.to_stderr)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
-    parser.add_argument("folder", help="of skein bench ladder")
-    parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
-    parser.add_argument("--to-stderr", action="store_true", help="the picture's path goes to stderr")
-    options = parser.parse_args()
-    return attempt(lambda: draw_table(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_table_of("ladder", __doc__, draw))

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """Draws what `skein phases` found: regime, half period and largest curvature over the fiber's length."""
 
-import argparse
-import csv
 import os
 import sys
 
@@ -16,20 +14,9 @@ import numpy as np
 
 import style
 from diagnostics import REGIMES
-from run_reader import MISSING, PlotError
-from script import attempt, print_path
+from table import draw_table_of
 
 SERIES = (("straight at first", "o", style.COLOURS[0]), ("perturbed", "D", style.COLOURS[1]))
-
-
-def read_table(path):
-    try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except OSError as error:
-        raise PlotError(MISSING, f"{path} cannot be read: {error.strerror}") from None
-    values = np.array([[float(cell) for cell in row] for row in rows[1:]])
-    return {name.split(" [")[0]: values[:, i] for i, name in enumerate(rows[0])}
 
 
 def draw(table):
@@ -76,19 +63,5 @@ def add_numbers(panel, lengths, numbers):
     axis.set_xlabel(r"elasto-viscous number $8\pi\mu\dot\gamma L^4/(c\,EI)$, $c=\ln(4e/\rho^2)$")
 
 
-def draw_table(options):
-    figure = draw(read_table(os.path.join(options.folder, "phases.csv")))
-    print_path(style.save(figure, options.folder, "phases", options.format), options.to_stderr)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
-    parser.add_argument("folder", help="of skein phases")
-    parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
-    parser.add_argument("--to-stderr", action="store_true", help="the picture's path goes to stderr")
-    options = parser.parse_args()
-    return attempt(lambda: draw_table(options))
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(draw_table_of("phases", __doc__, draw))
