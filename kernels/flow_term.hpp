@@ -2,8 +2,6 @@
 
 #include <skein/core/vec3.hpp>
 
-#include <array>
-
 namespace skein {
 
 enum class FlowShape { linear, parabolic, cellular };
@@ -23,8 +21,5 @@ struct FlowTerms {
   int n_terms = 0;
   FlowTerm term[n_allowed];
 };
-
-/// Gradients of the three components of a velocity, 1 / time.
-using FlowGradient = std::array<Vec3, 3>;
 
 }  // namespace skein

@@ -1,8 +1,7 @@
 #include "kernels/flow_velocity.hpp"
 
 #include <skein/core/error.hpp>
-
-#include "kernels/flow_gradient.hpp"
+#include <skein/core/math.hpp>
 
 namespace skein {
 namespace {
@@ -41,11 +40,6 @@ void add_flow_velocity(const Space& space, const FlowTerms& terms, const ConstVe
         for (int t = 0; t < terms.n_terms; ++t) sum = sum + velocity_of(terms.term[t], x);
         store(velocity, i, sum);
       });
-}
-
-FlowGradient compute_flow_gradient(const FlowTerm& term, const Vec3 position) {
-  const GradientRows rows = gradient_of(term, position);
-  return {rows.x, rows.y, rows.z};
 }
 
 #define SKEIN_INSTANTIATE(S) \

@@ -15,7 +15,4 @@ template <class Space>
 void add_flow_velocity(const Space& space, const FlowTerms& terms, const ConstVectorView<Space>& position,
                        const VectorView<Space>& velocity);
 
-/// Of the same velocity, on the host.
-FlowGradient compute_flow_gradient(const FlowTerm& term, Vec3 position);
-
 }  // namespace skein

@@ -2,6 +2,7 @@
 #include <skein/physics/flow_summary.hpp>
 #include <skein/physics/scene_flow.hpp>
 
+#include "kernels/flow_gradient.hpp"
 #include "kernels/flow_velocity.hpp"
 #include "physics/flow_table.hpp"
 
@@ -46,11 +47,12 @@ FlowTerm make_term(const FlowConfig& flow, const double time) {
 }
 
 void add_gradient(const FlowTerm& term, const Vec3 position, VelocityGradient& sum) {
-  const FlowGradient part = compute_flow_gradient(term, position);
+  const GradientRows part = gradient_of(term, position);
+  const Vec3 rows[3] = {part.x, part.y, part.z};
   for (std::size_t i = 0; i < 3; ++i) {
-    sum[i][0] += part[i].x;
-    sum[i][1] += part[i].y;
-    sum[i][2] += part[i].z;
+    sum[i][0] += rows[i].x;
+    sum[i][1] += rows[i].y;
+    sum[i][2] += rows[i].z;
   }
 }
 
