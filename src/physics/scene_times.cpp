@@ -23,28 +23,26 @@ constexpr double n_frames_allowed = 1e7;
 std::vector<KeyProblem> find_problems(const SceneConfig& scene, const double time_scale) {
   const TimeConfig& time = scene.time;
   std::vector<KeyProblem> problems;
-  const auto reject = [&](const std::string& what) {
-    const std::string key = what.substr(0, what.find(' '));
-    problems.push_back({key, fmt::format("{} (the scene's time scale is {:.3g})", what, time_scale)});
+  const auto reject = [&](const std::string& key, const std::string& what) {
+    problems.push_back({key, fmt::format("{} {} (the scene's time scale is {:.3g})", key, what, time_scale)});
   };
   const double duration = time.end - time.start;
   const double reach = duration > 0.0 ? std::min(duration, time_scale) : time_scale;
   if (time.method != TimeMethod::euler && time.tolerance * reach > 1.0)
-    reject(
-        fmt::format("time.tolerance {:g} allows an error of {:.3g} fiber lengths within a time of {:.3g}: take a "
-                    "smaller one, or leave the key out",
-                    time.tolerance, time.tolerance * reach, reach));
+    reject("time.tolerance", fmt::format("{:g} allows an error of {:.3g} fiber lengths within a time of {:.3g}: take a "
+                                         "smaller one, or leave the key out",
+                                         time.tolerance, time.tolerance * reach, reach));
   if (time.method != TimeMethod::euler && time.tolerance * time_scale < least_error)
-    reject(
-        fmt::format("time.tolerance {:g} is below the rounding of positions, {:.3g} per unit of time: take a larger "
-                    "one, or leave the key out",
-                    time.tolerance, least_error / time_scale));
+    reject("time.tolerance",
+           fmt::format("{:g} is below the rounding of positions, {:.3g} per unit of time: take a larger "
+                       "one, or leave the key out",
+                       time.tolerance, least_error / time_scale));
   if (duration / (time.step > 0.0 ? time.step : time.max_step) > n_steps_allowed)
-    reject(fmt::format("time.end {:g} would take more than {:.0e} steps of {:.3g}", time.end, n_steps_allowed,
-                       time.step > 0.0 ? time.step : time.max_step));
+    reject("time.end", fmt::format("{:g} would take more than {:.0e} steps of {:.3g}", time.end, n_steps_allowed,
+                                   time.step > 0.0 ? time.step : time.max_step));
   if (duration / scene.output.frame_interval > n_frames_allowed)
-    reject(fmt::format("time.end {:g} would make more than {:.0e} frames: set output.frame_interval", time.end,
-                       n_frames_allowed));
+    reject("time.end", fmt::format("{:g} would make more than {:.0e} frames: set output.frame_interval", time.end,
+                                   n_frames_allowed));
   return problems;
 }
 
