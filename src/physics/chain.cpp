@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/fibers/fiber_kinds.hpp>
 #include <skein/physics/chain.hpp>
 #include <skein/physics/rigid_tube.hpp>
 #include <skein/scene/fiber_spacing.hpp>
@@ -12,8 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 namespace skein {
 namespace {
@@ -85,44 +84,6 @@ FiberConfig make_chain(const FiberConfig& fiber, const double viscosity) {
   return chain;
 }
 
-/// A fiber without place and start, on which a chain's numbers do not depend.
-FiberConfig strip(FiberConfig fiber) {
-  const FiberConfig other;
-  fiber.center = other.center;
-  fiber.direction = other.direction;
-  fiber.roll = other.roll;
-  fiber.start_mode = other.start_mode;
-  fiber.start_amplitude = other.start_amplitude;
-  fiber.start_plane = other.start_plane;
-  fiber.start_noise = other.start_noise;
-  return fiber;
-}
-
-/// Numbers of chains by what they stand for: scenes often have many of one kind.
-class KnownChains {
- public:
-  explicit KnownChains(const double viscosity) : viscosity_(viscosity) {}
-
-  FiberConfig find(const FiberConfig& fiber) {
-    const FiberConfig kind = strip(fiber);
-    auto found = std::find_if(known_.begin(), known_.end(), [&](const auto& pair) { return pair.first == kind; });
-    if (found == known_.end()) found = known_.insert(known_.end(), {kind, make_chain(kind, viscosity_)});
-    FiberConfig chain = found->second;
-    chain.center = fiber.center;
-    chain.direction = fiber.direction;
-    chain.roll = fiber.roll;
-    chain.start_mode = fiber.start_mode;
-    chain.start_amplitude = fiber.start_amplitude;
-    chain.start_plane = fiber.start_plane;
-    chain.start_noise = fiber.start_noise;
-    return chain;
-  }
-
- private:
-  double viscosity_;
-  std::vector<std::pair<FiberConfig, FiberConfig>> known_;
-};
-
 }  // namespace
 
 ChainMatch match_chain(const FiberConfig& fiber, const double viscosity) {
@@ -162,12 +123,12 @@ ChainMatch match_chain(const FiberConfig& fiber, const double viscosity) {
 
 SceneConfig resolve_chains(const SceneConfig& scene) {
   SceneConfig resolved = scene;
-  KnownChains known(scene.fluid.viscosity);
+  FiberKinds chains([&](const FiberConfig& fiber) { return make_chain(fiber, scene.fluid.viscosity); });
   for (std::size_t i = 0; i < resolved.fibers.size(); ++i) {
     FiberConfig& fiber = resolved.fibers[i];
     if (!fiber.stands_for_tube()) continue;
     try {
-      fiber = known.find(fiber);
+      fiber = chains.find(fiber);
     } catch (const Error& error) {
       if (error.code() != ExitCode::scene_error) throw;
       throw Error(ExitCode::scene_error, fmt::format("fiber {}: {}", i, error.what()));

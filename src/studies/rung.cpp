@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/fibers/fiber_kinds.hpp>
 #include <skein/physics/chain.hpp>
 #include <skein/physics/rigid_tube.hpp>
 #include <skein/scene/fiber_spacing.hpp>
@@ -19,13 +20,7 @@ namespace {
 
 constexpr double most_radii = 120.0;  ///< length of the rigid tubes that are compared: ends count, more middle does not
 
-/// A piece of the fiber that is short enough to be solved for quickly.
-RigidTubeDrag measure_piece(FiberConfig fiber) {
-  const double spacing = compute_section_spacing(fiber);
-  fiber.sections =
-      std::max(2, std::min(fiber.sections, static_cast<int>(std::lround(most_radii * fiber.radius / spacing))));
-  return measure_rigid_tube(make_fibers({fiber})[0], 1.0);
-}
+RigidTubeDrag measure(const FiberConfig& tube) { return measure_rigid_tube(make_fibers({tube})[0], 1.0); }
 
 /// Both pieces of one length, whole sections of either.
 FiberConfig cut_to(FiberConfig fiber, const double length) {
@@ -40,7 +35,7 @@ double find_blob(FiberConfig fiber, const double aspect_ratio) {
   const double distance = std::max(compute_node_spacing(fiber), compute_section_spacing(fiber));
   const auto excess = [&](const double blob) {
     fiber.blob = blob;
-    return measure_rigid_tube(make_fibers({fiber})[0], 1.0).effective_aspect_ratio() / aspect_ratio - 1.0;
+    return measure(fiber).effective_aspect_ratio() / aspect_ratio - 1.0;
   };
   double low = 0.2 * distance, high = low, above = excess(low), below = above;
   constexpr double largest = 2.5;
@@ -115,34 +110,20 @@ RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
       measure_beam_stiffness(fine).infinite_bending / measure_beam_stiffness(make_fibers({coarse})[0]).infinite_bending;
 
   const double length = std::min(fine.length(), most_radii * fiber.radius);
-  const RigidTubeDrag target = measure_piece(cut_to(fiber, length));
+  const double aspect_ratio = measure(cut_to(fiber, length)).effective_aspect_ratio();
   FiberConfig piece = cut_to(coarse, length);
-  coarse.blob = piece.blob = find_blob(piece, target.effective_aspect_ratio());
-  const RigidTubeDrag found = measure_piece(piece);
-  fit.aspect_ratio_error = found.effective_aspect_ratio() / target.effective_aspect_ratio() - 1.0;
-  fit.turning_error = found.turning / target.turning - 1.0;
-  fit.transverse_error = found.transverse / target.transverse - 1.0;
+  coarse.blob = piece.blob = find_blob(piece, aspect_ratio);
+  fit.aspect_ratio_error = measure(piece).effective_aspect_ratio() / aspect_ratio - 1.0;
   return fit;
 }
 
 SceneConfig make_rung_scene(SceneConfig scene, const int nodes_per_section) {
   if (nodes_per_section == 1) return make_chain_scene(std::move(scene));
   std::vector<int> before;
-  std::vector<std::pair<FiberConfig, FiberConfig>> known;  // fibers of a suspension are alike but for their places
+  FiberKinds rungs([&](const FiberConfig& fiber) { return fit_rung(fiber, nodes_per_section).fiber; });
   for (FiberConfig& fiber : scene.fibers) {
     before.push_back(fiber.sections);
-    FiberConfig bare = fiber;
-    bare.center = bare.direction = Vec3{1.0, 0.0, 0.0};
-    bare.roll = 0.0;
-    const auto same = std::find_if(known.begin(), known.end(), [&](const auto& pair) { return pair.first == bare; });
-    const FiberConfig fitted = same != known.end() ? same->second : fit_rung(fiber, nodes_per_section).fiber;
-    if (same == known.end()) known.emplace_back(bare, fitted);
-    fiber.nodes_per_section = fitted.nodes_per_section;
-    fiber.sections = fitted.sections;
-    fiber.spacing = fitted.spacing;
-    fiber.spring_stiffness = fitted.spring_stiffness;
-    fiber.blob = fitted.blob;
-    fiber.reach_around = fitted.reach_around;
+    fiber = rungs.find(fiber);
   }
   move_loads(scene, before);
   return scene;

@@ -7,8 +7,7 @@ namespace skein {
 /// How well a tube of fewer or more nodes stands for another.
 struct RungFit {
   FiberConfig fiber;
-  /// Of the rigid tubes, both cut to 120 radii at most: relative differences from the other's
-  double aspect_ratio_error = 0.0, turning_error = 0.0, transverse_error = 0.0;
+  double aspect_ratio_error = 0.0;  ///< of the rigid tube, cut to 120 radii at most: relative difference
 };
 
 /// The fiber with other numbers of nodes: length, radius and bending rigidity (of rigid sections) kept, and by the blob
