@@ -2,31 +2,24 @@
 
 #include <skein/core/error.hpp>
 #include <skein/core/stopwatch.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/flow_summary.hpp>
 #include <skein/physics/scene_times.hpp>
 
-#include "runs/evaluation_time.hpp"
 #include "runs/observables.hpp"
 #include "runs/run_analyzer.hpp"
 
 #include <memory>
 
 namespace skein {
-namespace {
-
-State make_start(const SceneConfig& scene, const Physics& physics) {
-  return {0.0, 0, to_device("skein::Pilot::position", make_surface_nodes(physics.fibers, scene.seed))};
-}
-
-}  // namespace
 
 Pilot run_pilot(const SceneConfig& asked, const int n_intervals, const double max_seconds) {
   SKEIN_REQUIRE(n_intervals > 0, "a pilot has frames after its start");
   const SceneConfig scene = resolve_times(asked);
   Physics physics = make_physics(scene);
   FiberDynamics dynamics(physics);
-  State state = make_start(scene, physics);
+  State state{0.0, 0, to_device("skein::Pilot::position", make_surface_nodes(physics.fibers, scene.seed))};
   const auto integrator = make_integrator(scene, physics, dynamics);
   RunAnalyzer analyzer(
       scene, physics, [&](const Vec3 position) { return compute_typical_gradient(scene.flows, position); },
@@ -56,21 +49,9 @@ Pilot run_pilot(const SceneConfig& asked, const int n_intervals, const double ma
     pilot.failure = error.what();
   }
   pilot.seconds = seconds_since(start);
-  pilot.steps = state.step;
   pilot.evaluations = dynamics.evaluations();
   pilot.analysis = analyzer.take();
   return pilot;
-}
-
-EvaluationEstimate estimate_evaluation(const SceneConfig& asked) {
-  const SceneConfig scene = resolve_times(asked);
-  Physics physics = make_physics(scene);
-  FiberDynamics dynamics(physics);
-  const State state = make_start(scene, physics);
-  EvaluationEstimate estimate;
-  estimate.seconds = time_evaluation(dynamics, state.position).seconds;
-  estimate.spectral_radius = find_spectral_radius(scene, dynamics, 0.0, state.position);
-  return estimate;
 }
 
 }  // namespace skein

@@ -15,7 +15,7 @@ struct Pilot {
   RunAnalysis analysis;  ///< of its frames, without forces
   /// Centroids of the sections of all fibers, frame by frame: [n_frames][n_sections], length
   std::vector<std::vector<Vec3>> centreline;
-  std::int64_t steps = 0, evaluations = 0;
+  std::int64_t evaluations = 0;
   double seconds = 0.0;  ///< wall time of steps and frames
   std::string failure;   ///< why it broke off; empty: it reached its end
   bool is_late = false;  ///< it was given up because it took too long
@@ -30,11 +30,5 @@ struct Pilot {
 /// @param max_seconds  of wall time, looked at after each step
 /// @throws Error(scene_error) where the scene asks for what cannot be delivered
 Pilot run_pilot(const SceneConfig& scene, int n_intervals, double max_seconds);
-
-/// Wall time of one evaluation of the velocities at the start, seconds, and the spectral radius there, 1 / time.
-struct EvaluationEstimate {
-  double seconds = 0.0, spectral_radius = 0.0;
-};
-EvaluationEstimate estimate_evaluation(const SceneConfig& scene);
 
 }  // namespace skein

@@ -35,12 +35,11 @@ SceneConfig make_ladder_scene(const double length, const int nodes_per_section) 
   return scene;
 }
 
-/// The same run as if it had ended earlier.
-Pilot cut(const Pilot& pilot, const std::size_t first, const std::size_t end) {
+/// One frame of a run, to compare shapes at; nothing where the run did not get there.
+Pilot take_frame(const Pilot& pilot, const std::size_t frame) {
   Pilot part;
   part.analysis.fibers = pilot.analysis.fibers;
-  const std::size_t n = std::min(end, pilot.centreline.size());
-  for (std::size_t i = std::min(first, n); i < n; ++i) part.centreline.push_back(pilot.centreline[i]);
+  if (frame < pilot.centreline.size()) part.centreline.push_back(pilot.centreline[frame]);
   return part;
 }
 
@@ -75,7 +74,7 @@ std::vector<LadderPoint> measure_ladder(const LadderStudy& study,
         for (std::size_t third = 0; third < 3; ++third) {
           const std::size_t frame = n_frames * (third + 1) / 3;
           point.shape_errors[third] = find_largest_error(
-              compare_answers(cut(pilot, frame, frame + 1), cut(*finest, frame, frame + 1), {Question::shape}));
+              compare_answers(take_frame(pilot, frame), take_frame(*finest, frame), {Question::shape}));
         }
       } else {
         finest = std::move(pilot);

@@ -9,8 +9,7 @@ namespace skein {
 /// by `skein bench ladder`, whose table is perf/ladder.csv.
 struct LadderRow {
   int nodes_per_section;
-  double error;    ///< the largest of shape (over the length), half period, hook radius and snaking speed
-  double seconds;  ///< over that of 18 nodes, of one run
+  double error;  ///< the largest of shape (over the length), half period, hook radius and snaking speed
 };
 const std::vector<LadderRow>& list_ladder();
 

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -94,12 +95,13 @@ class Planner {
     const auto best = pilot_at(0.3);
     if (!best) return;
     for (const double factor : {30.0, 10.0, 3.0, 1.0}) {
-      const auto pilot = pilot_at(factor);
+      auto pilot = pilot_at(factor);
       if (!pilot || !pilot->failure.empty()) continue;
       const double error = find_largest_error(compare_answers(*pilot, *best, request_.asked));
       if (error > share_of_time * request_.tolerance && factor > 1.0) continue;
       plan_.time_tolerance = factor * scene_.time.tolerance;
       plan_.time_error = error;
+      coarsest_ = std::move(pilot);
       return;
     }
   }
@@ -107,10 +109,15 @@ class Planner {
   /// From the coarsest tube to the first that is good enough; each difference judges the lower of two rungs.
   void climb() {
     std::optional<Pilot> below;
+    const auto choose = [&](const std::size_t i) {
+      plan_.chosen = static_cast<int>(i);
+      chosen_ = std::move(below);
+    };
     for (std::size_t i = 0; i < plan_.candidates.size(); ++i) {
       Candidate& candidate = plan_.candidates[i];
       candidate.scene.time.tolerance = plan_.time_tolerance;
-      auto pilot = run(candidate.scene, fmt::format("pilot: {} nodes on a section", candidate.nodes_per_section));
+      const std::string words = fmt::format("pilot: {} nodes on a section", candidate.nodes_per_section);
+      auto pilot = i == 0 && coarsest_ ? std::move(coarsest_) : run(candidate.scene, words);
       if (!pilot) return;
       note(candidate, *pilot);
       if (!pilot->failure.empty()) {
@@ -119,13 +126,13 @@ class Planner {
         below.reset();
         continue;
       }
-      if (below && judge_below(static_cast<int>(i) - 1, *below, *pilot)) return;
+      if (below && judge_below(i - 1, *below, *pilot)) return choose(i - 1);
       below = std::move(pilot);
     }
     // The finest tube is judged by the table alone.
     Candidate& finest = plan_.candidates.back();
     if (std::isnan(finest.error)) finest.error = find_ladder_error(finest.nodes_per_section) + plan_.time_error;
-    if (finest.error <= request_.tolerance && below) plan_.chosen = static_cast<int>(plan_.candidates.size()) - 1;
+    if (finest.error <= request_.tolerance && below) choose(plan_.candidates.size() - 1);
   }
 
   void note(Candidate& candidate, const Pilot& pilot) {
@@ -143,18 +150,15 @@ class Planner {
   /// Of the chosen tube: pairs in single precision and an implicit method, where the scene leaves the choice open. One
   /// that is no faster is given up in the time that the chosen one took.
   void try_variants() {
-    if (plan_.chosen < 0) return;
+    if (!chosen_ || !chosen_->is_whole()) return;
     Candidate& chosen = plan_.candidates[plan_.chosen];
-    const auto reference = run(chosen.scene, "pilot: the chosen one once more, as a reference");
-    if (!reference || !reference->is_whole()) return;
-    chosen.seconds = reference->seconds;
     const auto try_out = [&](SceneConfig scene, const std::string& words) {
       if (seconds_left() <= 0.0) return;
       say_("pilot: " + words);
       constexpr double least_gain = 0.9;
       const Pilot pilot = run_pilot(scene, n_intervals, std::min(seconds_left(), least_gain * chosen.seconds));
       if (!pilot.is_whole()) return;
-      const double error = find_largest_error(compare_answers(pilot, *reference, request_.asked));
+      const double error = find_largest_error(compare_answers(pilot, *chosen_, request_.asked));
       if (!(chosen.error + error <= request_.tolerance)) return;
       chosen.error += error;
       chosen.seconds = pilot.seconds;
@@ -174,8 +178,8 @@ class Planner {
     }
   }
 
-  /// @returns true if the lower rung is chosen
-  bool judge_below(const int lower, const Pilot& run, const Pilot& better) {
+  /// @returns true if the lower rung is good enough
+  bool judge_below(const std::size_t lower, const Pilot& run, const Pilot& better) {
     Candidate &candidate = plan_.candidates[lower], &above = plan_.candidates[lower + 1];
     candidate.found = compare_answers(run, better, request_.asked);
     const double difference = find_largest_error(candidate.found);
@@ -192,7 +196,6 @@ class Planner {
       candidate.verdict = fmt::format("{} fails", name_of(worst));
       return false;
     }
-    plan_.chosen = lower;
     return true;
   }
 
@@ -239,6 +242,7 @@ class Planner {
   const PlanRequest& request_;
   const std::function<void(const std::string&)>& say_;
   WallClock::time_point start_;
+  std::optional<Pilot> coarsest_, chosen_;  ///< pilots that serve once more
   Plan plan_;
 };
 
