@@ -44,6 +44,7 @@ class FaultyDynamics final : public RightHandSide {
     if (fault_.is_due(FaultOrder::Target::velocity)) spoil(velocity, fault_.order.step);
   }
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
+  void project(const Vectors& position) override { dynamics_.project(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
   const TimeCourse& time_course() const override { return dynamics_.time_course(); }
   void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
@@ -65,6 +66,7 @@ class FaultyMobility final : public Mobility {
     spoil(spoiled, fault_.order.step);
     mobility_->add_velocity({sources.position, spoiled, sources.blob}, target, velocity);
   }
+  double expected_error() const override { return mobility_->expected_error(); }
   double pairs() const override { return mobility_->pairs(); }
   std::string describe() const override { return mobility_->describe(); }
   void visit_memory(MemoryVisitor& visitor) override { mobility_->visit_memory(visitor); }

@@ -161,6 +161,7 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
     dt = control_.after_rejected(dt, reason.empty() ? result.error : fault.empty() ? 4.0 : std::nan(""));
     prepare_again(state.time, start_, start_velocity_, fault);
   }
+  rhs_.project(end_);
   step_start_ = state.time;
   step_end_ = dt == left ? end : state.time + dt;
   state.time = step_end_;
@@ -178,6 +179,7 @@ void ControlledIntegrator::interpolate(const double time, const Vectors& positio
   const double h01 = theta * theta * (3.0 - 2.0 * theta), h11 = theta * theta * (theta - 1.0);
   combine<ExecSpace>(ExecSpace(), position, {h00, start_}, {h10 * dt, start_velocity_}, {h01, end_},
                      {h11 * dt, end_velocity_});
+  rhs_.project(position);
 }
 
 std::string ControlledIntegrator::describe() const {

@@ -42,6 +42,7 @@ StepReport Euler::take_step(State& state, const double end) {
   if (!fault.empty())
     throw Error(ExitCode::numerical, fmt::format("blow-up in step {} at t = {:.6g}: {}.\n{}", state.step + 1,
                                                  state.time + dt, fault, explain_instability(radius)));
+  rhs_.project(end_);
   spectral_radius_ = radius;
   step_start_ = state.time;
   step_end_ = dt == left ? end : state.time + dt;
@@ -65,6 +66,7 @@ std::string Euler::explain_instability(const double radius) const {
 void Euler::interpolate(const double time, const Vectors& position) const {
   const double theta = step_end_ > step_start_ ? (time - step_start_) / (step_end_ - step_start_) : 1.0;
   combine<ExecSpace>(ExecSpace(), position, {1.0 - theta, start_}, {theta, end_});
+  rhs_.project(position);
 }
 
 void Euler::visit_memory(MemoryVisitor& visitor) { visitor.number("euler.spectral_radius", spectral_radius_); }

@@ -10,13 +10,13 @@ Gmres::Gmres(const int n_nodes, const int max_iterations)
       n_nodes_(n_nodes),
       product_("skein::Gmres::product", static_cast<std::size_t>(n_nodes)) {}
 
-void Gmres::apply(Linearization& a, const double scale, const ConstVectors& v, const Vectors& result) {
+void Gmres::apply(LinearOperator& a, const double scale, const ConstVectors& v, const Vectors& result) {
   a.precondition(v, product_);
   a.multiply(product_, result);
   combine<ExecSpace>(ExecSpace(), result, {1.0, product_}, {-scale, result});
 }
 
-Gmres::Result Gmres::solve(Linearization& a, const double scale, const ConstVectors& b, const Vectors& x,
+Gmres::Result Gmres::solve(LinearOperator& a, const double scale, const ConstVectors& b, const Vectors& x,
                            const double tolerance) {
   const ExecSpace space;
   const double root_n = std::sqrt(static_cast<double>(n_nodes_));
@@ -86,7 +86,7 @@ Gmres::Result Gmres::solve(Linearization& a, const double scale, const ConstVect
 
 // x += P^-1 (combination of the basis + residual): the preconditioner is applied once in either case, and what it knows
 // of the residual keeps stiff modes from drifting.
-void Gmres::add_solution(Linearization& a, const Vectors& x) {
+void Gmres::add_solution(LinearOperator& a, const Vectors& x) {
   const int n_columns = static_cast<int>(column_.size());
   std::vector<double> factor(n_columns + 1);
   for (int row = n_columns - 1; row >= 0; --row) {

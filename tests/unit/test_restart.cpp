@@ -208,6 +208,7 @@ class InterruptedDynamics final : public RightHandSide {
     dynamics_.compute_velocity(time, position, velocity);
   }
   std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
+  void project(const Vectors& position) override { dynamics_.project(position); }
   std::int64_t evaluations() const override { return dynamics_.evaluations(); }
   const TimeCourse& time_course() const override { return dynamics_.time_course(); }
   void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }

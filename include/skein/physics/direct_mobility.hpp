@@ -14,6 +14,7 @@ class DirectMobility final : public Mobility {
   DirectMobility(double viscosity, Precision precision);
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  double expected_error() const override { return precision_ == Precision::in_single ? 1e-6 : 0.0; }
   double pairs() const override { return pairs_; }
   std::string describe() const override;
   void visit_memory(MemoryVisitor&) override {}

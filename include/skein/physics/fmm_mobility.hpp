@@ -28,6 +28,7 @@ class FmmMobility final : public Mobility {
   /// @throws Error(scene_error) where a tolerance is out of reach for these blobs; Error(numerical) where a check finds
   /// an error above the tolerance and the options say to stop.
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  double expected_error() const override { return options_.tolerance; }
   double pairs() const override { return pairs_; }
   std::string describe() const override;
   void visit_memory(MemoryVisitor& visitor) override;

@@ -25,6 +25,9 @@ class Mobility {
   /// @throws Error(internal) if extents differ. Non-finite input is not searched for here: the time step checks.
   virtual void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) = 0;
 
+  /// Of velocities, relative (2-norm); 0 where it is that of double precision.
+  virtual double expected_error() const { return 0.0; }
+
   /// Source-target pairs a direct sum would have needed for the calls so far: the unit of the cost card.
   virtual double pairs() const = 0;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/solvers/linearization.hpp>
+#include <skein/solvers/linear_operator.hpp>
 
 #include <vector>
 
@@ -22,12 +22,12 @@ class Gmres {
 
   /// @param x          the first guess, overwritten with the solution as far as it came
   /// @param tolerance  of the residual's root mean square, unit of b; each iteration is one product
-  Result solve(Linearization& a, double scale, const ConstVectors& b, const Vectors& x, double tolerance);
+  Result solve(LinearOperator& a, double scale, const ConstVectors& b, const Vectors& x, double tolerance);
 
  private:
   /// result = (I - scale A) (approximately (I - scale A)^-1) v; product_ is the inverse's product
-  void apply(Linearization& a, double scale, const ConstVectors& v, const Vectors& result);
-  void add_solution(Linearization& a, const Vectors& x);
+  void apply(LinearOperator& a, double scale, const ConstVectors& v, const Vectors& result);
+  void add_solution(LinearOperator& a, const Vectors& x);
 
   int max_iterations_;
   std::vector<Vectors> basis_;               ///< [max_iterations + 1], made when they are needed

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/arrays/types.hpp>
+#include <skein/solvers/linear_operator.hpp>
 
 #include <string>
 
@@ -8,15 +8,13 @@ namespace skein {
 
 /// The stiff part A of d velocity / d position, for linearly implicit integrators: what is slow may be missing from it.
 /// One call at a time.
-class Linearization {
+class Linearization : public LinearOperator {
  public:
-  virtual ~Linearization() = default;
-
   /// From now on, A is that of these positions, [n_nodes, 3], at this time.
   virtual void set_position(double time, const ConstVectors& position) = 0;
 
-  /// Overwrites result with A v. Counts as one evaluation.
-  virtual void multiply(const ConstVectors& v, const Vectors& result) = 0;
+  /// Counts as one evaluation.
+  void multiply(const ConstVectors& v, const Vectors& result) override = 0;
 
   /// Makes an approximate (I - scale A)^-1 at these positions, from them and from nothing else; it goes on to serve at
   /// other positions. @param scale  >= 0, time. @returns false where there is none
@@ -26,9 +24,6 @@ class Linearization {
   /// clocks, so that what is decided by them is decided alike in every run.
   virtual double factorization_cost() const = 0;
   virtual double preconditioning_cost() const = 0;
-
-  /// Overwrites result with that approximate inverse times v. result may be v.
-  virtual void precondition(const ConstVectors& v, const Vectors& result) = 0;
 
   /// One line: what the preconditioner is.
   virtual std::string describe() const = 0;

@@ -22,6 +22,11 @@ class RightHandSide {
   /// wait.
   virtual std::string find_fault(const ConstVectors& position) const = 0;
 
+  /// Puts positions back among those that it allows, such as those of rigid bodies, from which a step leads away by its
+  /// error: integrators do so with what they accept and what they interpolate. Velocities are the same before and
+  /// after. Does nothing where all positions are allowed.
+  virtual void project(const Vectors& /*position*/) {}
+
   virtual std::int64_t evaluations() const = 0;
 
   /// All that later velocities depend on besides the arguments.
