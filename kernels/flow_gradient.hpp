@@ -18,6 +18,11 @@ struct GradientRows {
   SKEIN_INLINE_FUNCTION Vec3 of_component(const Vec3 direction) const {
     return direction.x * x + direction.y * y + direction.z * z;
   }
+
+  /// (G + G^T) direction: twice the rate of strain, applied to a direction.
+  SKEIN_INLINE_FUNCTION Vec3 twice_strain(const Vec3 direction) const {
+    return of_component(direction) + Vec3{dot(x, direction), dot(y, direction), dot(z, direction)};
+  }
 };
 
 SKEIN_INLINE_FUNCTION GradientRows gradient_of(const FlowTerm& term, const Vec3 position) {

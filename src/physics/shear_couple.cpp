@@ -27,15 +27,16 @@ std::vector<double> make_couples(const std::vector<Fiber>& fibers) {
 
 SKEIN_INLINE_FUNCTION Vec3 across(const Vec3 direction, const Vec3 v) { return v - dot(direction, v) * direction; }
 
-/// On the head of a link of direction e and length r in a flow of gradient G: -couple/r times the part of G^T e across
-/// e. The tail has the opposite force.
+/// On the head of a link of direction e and length r in a flow of gradient G: -couple/r times the part of (G + G^T) e
+/// across e. The tail has the opposite force. A surface along e feels the shear G^T e and its own turning; a link turns
+/// with G e but for what the drag on its nodes resists, which the blob makes that of the tube, turning surface and all.
 SKEIN_INLINE_FUNCTION Vec3 force_on_head(const FlowTerms& terms, const double couple, const Vec3 tail,
                                          const Vec3 head) {
   const double r = norm(head - tail);
   if (!(r > 0.0)) return {};
   const Vec3 e = (head - tail) / r, middle = 0.5 * (tail + head);
   Vec3 growth;
-  for (int t = 0; t < terms.n_terms; ++t) growth = growth + gradient_of(terms.term[t], middle).of_component(e);
+  for (int t = 0; t < terms.n_terms; ++t) growth = growth + gradient_of(terms.term[t], middle).twice_strain(e);
   return (-couple / r) * across(e, growth);
 }
 
@@ -50,8 +51,8 @@ SKEIN_INLINE_FUNCTION Vec3 change_on_head(const FlowTerms& terms, const double c
   Vec3 growth, change;
   for (int t = 0; t < terms.n_terms; ++t) {
     const GradientRows rows = gradient_of(terms.term[t], middle);
-    growth = growth + rows.of_component(e);
-    change = change + rows.of_component(turn) + gradient_change_of(terms.term[t], middle, shift).of_component(e);
+    growth = growth + rows.twice_strain(e);
+    change = change + rows.twice_strain(turn) + gradient_change_of(terms.term[t], middle, shift).twice_strain(e);
   }
   return (-couple / r) *
          (across(e, change) - dot(turn, growth) * e - dot(e, growth) * turn - stretch * across(e, growth));

@@ -69,13 +69,8 @@ TEST(Chain, DragsAndIsHeldInAShearLikeTheTube) {
   }
 }
 
-// The torque of the couple's forces on the straight chain along a shear.
-TEST(Chain, IsTurnedAlongAShearWithTheTubesTorque) {
-  SceneConfig scene;
-  scene.fluid.viscosity = 1.7;
-  scene.fibers = {make_chain_of_tube(80)};
-  scene.flows.front().rate = 2.0;
-  const RigidTubeDrag drag = measure_rigid_tube(make_tube(scene.fibers.front()), 1.7);
+/// The torque of a scene's forces on its straight fiber, about the origin.
+Vec3 measure_torque(const SceneConfig& scene) {
   const Physics physics = make_physics(scene);
   const std::vector<Vec3> nodes = make_surface_nodes(physics.fibers);
   const Vectors force("force", nodes.size());
@@ -83,7 +78,28 @@ TEST(Chain, IsTurnedAlongAShearWithTheTubesTorque) {
   const std::vector<Vec3> forces = to_host(ConstVectors(force));
   Vec3 torque;
   for (std::size_t i = 0; i < nodes.size(); ++i) torque = torque + cross(nodes[i], forces[i]);
-  EXPECT_NEAR(torque.z, -2.0 * drag.torque_along, 1e-9 * drag.torque_along);
+  return torque;
+}
+
+// Along a shear a line itself is not turned; across one it is turned by its whole drag, the tube by less.
+TEST(Chain, IsTurnedInAShearWithTheTubesTorque) {
+  SceneConfig scene;
+  scene.fluid.viscosity = 1.7;
+  scene.fibers = {make_chain_of_tube(80)};
+  scene.flows.front().rate = 2.0;
+  const RigidTubeDrag drag = measure_rigid_tube(make_tube(scene.fibers.front()), 1.7);
+  EXPECT_NEAR(measure_torque(scene).z, -2.0 * drag.torque_along, 1e-9 * drag.torque_along);
+  scene.fibers.front().direction = {0.0, 1.0, 0.0};
+  EXPECT_NEAR(measure_torque(scene).z, 2.0 * (drag.turning - drag.torque_across), 1e-8 * drag.torque_along);
+}
+
+TEST(Chain, IsTakenAlongByARotatingFluidWithoutATorque) {
+  SceneConfig scene;
+  scene.fibers = {make_chain_of_tube(80)};
+  scene.fibers.front().direction = {0.3, 0.9, 0.2};
+  scene.flows = {{.kind = FlowKind::rotation, .rate = 2.0}};
+  const RigidTubeDrag drag = measure_rigid_tube(make_tube(scene.fibers.front()), 1.0);
+  EXPECT_LT(norm(measure_torque(scene)), 1e-12 * drag.torque_along);
 }
 
 // E = EI kappa^2 / 2 on the length that can bend, softer by (kappa spacing)^2 / 12 of itself.
