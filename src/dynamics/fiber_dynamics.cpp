@@ -45,15 +45,27 @@ class PartsTimer {
 FiberDynamics::FiberDynamics(Physics& physics)
     : physics_(physics),
       course_(physics.make_time_course()),
-      force_("skein::FiberDynamics::force", physics.blob.extent(0)) {}
+      motion_(physics),
+      force_("skein::FiberDynamics::force", physics.blob.extent(0)) {
+  if (!physics.rigid_bodies.is_empty()) places_ = Vectors("skein::FiberDynamics::places", physics.blob.extent(0));
+}
 
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
   PartsTimer timer(evaluations_++, seconds_);
   Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
-  physics_.flow->add_velocity(time, position, velocity);
-  physics_.compute_forces(time, position, force_);
+  ConstVectors places = position;
+  if (!physics_.rigid_bodies.is_empty()) {
+    motion_.compute_places(position, places_);
+    places = places_;
+  }
+  physics_.flow->add_velocity(time, places, velocity);
+  physics_.compute_forces(time, places, force_);
   timer.begin_fluid();
-  physics_.mobility->add_velocity({position, force_, physics_.blob}, position, velocity);
+  motion_.solve(places, force_, velocity);
+}
+
+void FiberDynamics::project(const Vectors& position) {
+  if (!physics_.rigid_bodies.is_empty()) motion_.compute_places(position, position);
 }
 
 void FiberDynamics::multiply(const double time, const ConstVectors& position, const ConstVectors& displacement,
@@ -66,6 +78,7 @@ void FiberDynamics::multiply(const double time, const ConstVectors& position, co
 }
 
 Linearization* FiberDynamics::linearization() {
+  if (!physics_.rigid_bodies.is_empty()) return nullptr;
   if (linearization_ == nullptr)
     linearization_ = std::make_unique<FiberLinearization>(
         physics_.fibers, physics_.viscosity,

@@ -2,6 +2,7 @@
 #include <skein/fibers/calibration.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace skein {
@@ -109,11 +110,14 @@ double measure_infinite_bending(const Fiber& fiber, const double curvature) {
          (curvature * curvature * fiber.spacing());
 }
 
-/// A chain is the beam that its keys say; it has no sections that could change, and does not twist.
-BeamStiffness take_chain_stiffness(const Fiber& fiber) {
+/// A line is the beam that its keys say; it has no sections that could change, and does not twist. A rigid one that
+/// says nothing is as stiff as can be.
+BeamStiffness take_line_stiffness(const Fiber& fiber) {
   const double factor = mean_factor(make_spring_network(fiber));
+  const bool is_unknown = fiber.config.is_rigid() && fiber.config.bending_rigidity == 0.0;
   BeamStiffness stiffness;
-  stiffness.bending = stiffness.infinite_bending = stiffness.relaxed_bending = factor * fiber.config.bending_rigidity;
+  stiffness.bending = stiffness.infinite_bending = stiffness.relaxed_bending =
+      is_unknown ? std::numeric_limits<double>::infinity() : factor * fiber.config.bending_rigidity;
   stiffness.axial = stiffness.relaxed_axial = factor * fiber.config.spring_stiffness;
   return stiffness;
 }
@@ -145,7 +149,7 @@ double measure_bending_rigidity(const Fiber& fiber, const double curvature) {
 }
 
 BeamStiffness measure_beam_stiffness(const Fiber& fiber) {
-  if (fiber.config.model == FiberModel::chain) return take_chain_stiffness(fiber);
+  if (fiber.config.is_line()) return take_line_stiffness(fiber);
   const double curvature = small_bend / fiber.config.radius;
   const double radius = fiber.config.radius;
   BeamStiffness stiffness;

@@ -38,8 +38,8 @@ std::vector<Fiber> make_fibers(const std::vector<FiberConfig>& configs) {
   int first_section = 0;
   for (const FiberConfig& config : configs) {
     SKEIN_REQUIRE(config.sections >= 2, "a fiber needs two sections");
-    SKEIN_REQUIRE(config.nodes_per_section >= 3 || config.model == FiberModel::chain, "a section needs three nodes");
-    SKEIN_REQUIRE(!config.stands_for_tube(), "a chain that stands for a tube is not laid out: see resolve_chains");
+    SKEIN_REQUIRE(config.nodes_per_section >= 3 || config.is_line(), "a section needs three nodes");
+    SKEIN_REQUIRE(!config.stands_for_tube(), "a line that stands for a tube is not laid out: see resolve_chains");
     SKEIN_REQUIRE(config.radius > 0.0, "the radius of a fiber is positive");
     SKEIN_REQUIRE(norm(config.direction) > 0.0, "the direction of a fiber is not the zero vector");
     const Fiber fiber{config, first_node, first_section, static_cast<int>(fibers.size())};

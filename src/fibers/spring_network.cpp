@@ -20,7 +20,7 @@ SpringStencil make_stencil(const FiberConfig& config, const double spacing) {
       const int steps = std::min(node, config.nodes_per_section - node);
       const double chord = 2.0 * config.radius * std::sin(std::numbers::pi * steps / config.nodes_per_section);
       const bool is_itself = offset == 0 && node == 0;
-      const bool is_joined = config.reach_around == 0 || steps <= config.reach_around;
+      const bool is_joined = !config.is_rigid() && (config.reach_around == 0 || steps <= config.reach_around);
       const double factor = offset == 0 ? config.stiffness_within_sections : config.stiffness_between_sections;
       stencil.rest_length.push_back(std::hypot(offset * spacing, chord));
       stencil.stiffness.push_back(is_itself || !is_joined ? 0.0 : factor * config.spring_stiffness);

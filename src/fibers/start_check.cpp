@@ -80,8 +80,8 @@ std::vector<KeyProblem> find_noise_problems(const std::string& path, const Fiber
 
 namespace {
 
-/// Of the surface that a chain has none of: how much a tube of its radius would be strained at the sharpest turn.
-double measure_chain_strain(const Fiber& fiber, const std::vector<SectionPose>& poses) {
+/// Of the surface that a line has none of: how much a tube of its radius would be strained at the sharpest turn.
+double measure_line_strain(const Fiber& fiber, const std::vector<SectionPose>& poses) {
   double turn = 0.0;
   for (std::size_t s = 0; s + 1 < poses.size(); ++s)
     turn = std::max(turn, norm(poses[s + 1].axes.along - poses[s].axes.along));
@@ -91,7 +91,7 @@ double measure_chain_strain(const Fiber& fiber, const std::vector<SectionPose>& 
 }  // namespace
 
 double measure_start_strain(const Fiber& fiber, const std::vector<SectionPose>& poses) {
-  if (fiber.config.model == FiberModel::chain) return measure_chain_strain(fiber, poses);
+  if (fiber.config.is_line()) return measure_line_strain(fiber, poses);
   const int n = fiber.config.sections, reach = fiber.config.reach_along;
   int sharpest = 0;  // the section before the sharpest turn
   double least_cosine = 2.0;

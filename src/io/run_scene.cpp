@@ -18,7 +18,7 @@ SceneConfig read_run_scene(const RunFolder& folder) {
   for (const FiberConfig& fiber : scene.fibers)
     if (fiber.stands_for_tube())
       throw Error(ExitCode::damaged_data,
-                  fmt::format("'{}' has a chain that stands for a tube; runs write numbers in its stead: the file was "
+                  fmt::format("'{}' has a fiber that stands for a tube; runs write numbers in its stead: the file was "
                               "changed since. Put it back.",
                               folder.scene().string()));
   return scene;

@@ -6,9 +6,8 @@
 #include <skein/physics/rigid_tube.hpp>
 #include <skein/scene/fiber_spacing.hpp>
 
-#include "kernels/regularized_stokeslet.hpp"
+#include "line_mobility.hpp"
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,18 +27,11 @@ struct LineDrag {
 
 /// @param blob, spacing  length
 LineDrag measure_line(const int n_nodes, const double spacing, const double blob) {
-  Eigen::MatrixXd along(n_nodes, n_nodes), across(n_nodes, n_nodes);
-  for (int i = 0; i < n_nodes; ++i)
-    for (int j = 0; j < n_nodes; ++j) {
-      const double d = (i - j) * spacing;
-      const auto weight = regularized_stokeslet::weights(d, 0.0, 0.0, blob * blob);
-      across(i, j) = regularized_stokeslet::scale(1.0) * weight.isotropic;
-      along(i, j) = across(i, j) + regularized_stokeslet::scale(1.0) * weight.along * d * d;
-    }
+  const LineMobility mobility = make_line_mobility(n_nodes, spacing, blob);
   const Eigen::VectorXd slide = Eigen::VectorXd::Ones(n_nodes);
-  const Eigen::VectorXd turn = Eigen::VectorXd::LinSpaced(n_nodes, -0.5, 0.5) * ((n_nodes - 1) * spacing);
-  const Eigen::LLT<Eigen::MatrixXd> factor(across);
-  return {slide.dot(along.llt().solve(slide)), slide.dot(factor.solve(slide)), turn.dot(factor.solve(turn))};
+  const Eigen::VectorXd turn = list_line_places(n_nodes, spacing);
+  const Eigen::LLT<Eigen::MatrixXd> factor(mobility.across);
+  return {slide.dot(mobility.along.llt().solve(slide)), slide.dot(factor.solve(slide)), turn.dot(factor.solve(turn))};
 }
 
 /// The blob between 0.2 and 5 radii, which are 1, with which a line of nodes is as hard to turn: drag grows with the
@@ -50,11 +42,10 @@ double find_blob(const int n_nodes, const double spacing, const double turning) 
     return measure_line(n_nodes, spacing, ratio).turning < turning;
   };
   if (!turns_too_easily(low) || turns_too_easily(high))
-    throw Error(
-        ExitCode::scene_error,
-        fmt::format("no blob between {:g} and {:g} radii makes a chain of {} nodes as hard to turn as the tube: "
-                    "the tube is too short, or its nodes too far apart, for a chain",
-                    low, high, n_nodes));
+    throw Error(ExitCode::scene_error,
+                fmt::format("no blob between {:g} and {:g} radii makes a line of {} nodes as hard to turn as the tube: "
+                            "the tube is too short, or its nodes too far apart, for one",
+                            low, high, n_nodes));
   constexpr int n_halvings = 40;
   for (int i = 0; i < n_halvings; ++i) {
     const double middle = 0.5 * (low + high);
@@ -87,13 +78,13 @@ FiberConfig make_chain(const FiberConfig& fiber, const double viscosity) {
 }  // namespace
 
 ChainMatch match_chain(const FiberConfig& fiber, const double viscosity) {
-  SKEIN_REQUIRE(fiber.stands_for_tube(), "a chain that stands for no tube has nothing to match");
+  SKEIN_REQUIRE(fiber.stands_for_tube(), "a line that stands for no tube has nothing to match");
   // In units in which radius and viscosity are 1, so that a scene in other units has the same chain to the last bit.
   const double radius = fiber.radius, spacing = lay_out_chain(fiber).spacing / radius;
   if (spacing < least_spacing)
     throw Error(
         ExitCode::scene_error,
-        fmt::format("the nodes of a chain would lie {:.3g} radii apart, less than {:g}: the tube is too short, or "
+        fmt::format("the nodes of the line would lie {:.3g} radii apart, less than {:g}: the tube is too short, or "
                     "chain_nodes too many",
                     spacing, least_spacing));
   FiberConfig unit_tube = describe_tube(fiber);

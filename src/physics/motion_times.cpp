@@ -53,8 +53,9 @@ double find_relaxation_time(const std::vector<Fiber>& fibers, const double visco
   for (const Fiber& fiber : fibers) {
     const double drag = transverse_drag(fiber, viscosity), squared = std::pow(fiber.length() / wave_number, 2);
     const BeamStiffness beam = measure_beam_stiffness(fiber);
-    // A chain may have no rigidity against bends: then it is a stretch that relaxes.
-    time = std::min(time, beam.bending > 0.0 ? drag * (squared * squared) / beam.bending : drag * squared / beam.axial);
+    // A chain may have no rigidity against bends, and a rigid line an infinite one: then it is a stretch that relaxes.
+    const bool bends = beam.bending > 0.0 && std::isfinite(beam.bending);
+    time = std::min(time, bends ? drag * (squared * squared) / beam.bending : drag * squared / beam.axial);
   }
   return time;
 }

@@ -73,6 +73,7 @@ std::string Physics::describe_forces() const {
 Physics make_physics(const SceneConfig& asked) {
   const SceneConfig scene = resolve_chains(asked);
   std::vector<Fiber> fibers = make_fibers(scene.fibers);
+  RigidBodies rigid_bodies(fibers, scene.fluid.viscosity);
   Sections sections(fibers);
   Scalars blob = to_device("skein::Physics::blob", make_blobs(fibers));
   std::vector<std::unique_ptr<Force>> forces = make_forces(scene, fibers);
@@ -80,6 +81,7 @@ Physics make_physics(const SceneConfig& asked) {
           .forces = std::move(forces),
           .flow = make_background_flow(scene.flows),
           .mobility = make_mobility(scene),
+          .rigid_bodies = std::move(rigid_bodies),
           .sections = std::move(sections),
           .blob = blob,
           .viscosity = scene.fluid.viscosity};

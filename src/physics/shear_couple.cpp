@@ -16,7 +16,7 @@ std::vector<double> make_couples(const std::vector<Fiber>& fibers) {
   for (const Fiber& fiber : fibers) {
     const std::size_t first = couple.size(), n_nodes = static_cast<std::size_t>(fiber.n_nodes());
     couple.resize(first + n_nodes);
-    if (fiber.config.model != FiberModel::chain) continue;
+    if (!fiber.config.is_line()) continue;
     const std::size_t end = first + n_nodes - 1;  // no link begins at the last node
     std::fill(couple.begin() + first, couple.begin() + end, fiber.config.shear_couple * fiber.spacing());
     couple[first] += fiber.config.end_couple;

@@ -163,12 +163,11 @@ class Torques final : public Force {
 void append_torques(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
   for (std::size_t i = 0; i < scene.torques.size(); ++i) {
     const int fiber = scene.torques[i].fiber;
-    if (fiber < static_cast<int>(fibers.size()) && fibers[fiber].config.model == FiberModel::chain)
-      throw Error(
-          ExitCode::scene_error,
-          fmt::format("torque[{}].fiber {}: sections of a chain are points, which no torque turns; take a tube, or "
-                      "[[tether]]s that pull at two sections",
-                      i, fiber));
+    if (fiber < static_cast<int>(fibers.size()) && fibers[fiber].config.is_line())
+      throw Error(ExitCode::scene_error, fmt::format("torque[{}].fiber {}: sections of chains and rigid fibers are "
+                                                     "points, which no torque turns; take a tube, or "
+                                                     "[[tether]]s that pull at two sections",
+                                                     i, fiber));
   }
   if (!scene.torques.empty()) forces.push_back(std::make_unique<Torques>(scene.torques, fibers, scene.fluid.viscosity));
 }

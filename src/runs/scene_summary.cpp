@@ -31,6 +31,38 @@ std::string describe_chain(const Fiber& fiber, const BeamStiffness& beam, const 
       config.blob / fiber.spacing(), config.blob / config.radius);
 }
 
+std::string describe_rigid(const Fiber& fiber, const int index) {
+  const FiberConfig& config = fiber.config;
+  return fmt::format(
+      "fiber {}: rigid, a line of {} nodes, length {:.6g} (centreline {:.6g}), radius {:g}, spacing {:.6g}\n"
+      "  couple along a shear {:.4g} a length and {:.4g} at each end, times its rate\n"
+      "  rho = R/L {:.4g}, blob/spacing {:.3g}, blob/radius {:.3g}\n",
+      index, config.sections, fiber.length(), fiber.length() - fiber.spacing(), config.radius, fiber.spacing(),
+      config.shear_couple, config.end_couple, config.radius / fiber.length(), config.blob / fiber.spacing(),
+      config.blob / config.radius);
+}
+
+/// Whether a fiber of this stiffness would stay straight.
+/// The threshold is of slender-body theory: Liu, Chakrabarti, Saintillan, Lindner, du Roure, PNAS 115, 9438 (2018).
+std::string judge_rigid(const Fiber& fiber, const double viscosity, const double rate, const BeamStiffness& beam) {
+  constexpr double first_threshold = 306.4;
+  if (std::isinf(beam.relaxed_bending)) return {};  // nobody said what it is
+  const double number =
+      compute_elasto_viscous_numbers(fiber, viscosity, rate, beam.relaxed_bending).with_minus_log_rho2_e;
+  const std::string text = fmt::format(
+      "with EI {:.6g} its elasto-viscous number 8 pi mu rate L^4/(c EI), c = -ln(rho^2 "
+      "e), would be {:.4g}",
+      beam.relaxed_bending, number);
+  // A logarithm that is not positive is of a body that is not slender, and does not bend.
+  if (!(number > first_threshold))
+    return fmt::format("  {}: it stays straight, bends grow above {:g}\n", text, first_threshold);
+  return fmt::format(
+      "  warning: {}, and above {:g} bends grow while the flow compresses it, which a rigid fiber does not show; model "
+      "= "
+      "\"chain\" does\n",
+      text, first_threshold);
+}
+
 std::string describe_tube(const Fiber& fiber, const BeamStiffness& beam, const int index) {
   const FiberConfig& config = fiber.config;
   return fmt::format(
@@ -63,6 +95,8 @@ std::string describe_numbers(const Fiber& fiber, const double viscosity, const d
 std::string describe_fiber(const SceneConfig& scene, const double rate, const Fiber& fiber, const int index) {
   const FiberConfig& config = fiber.config;
   const BeamStiffness beam = measure_beam_stiffness(fiber);
+  if (config.is_rigid())
+    return describe_rigid(fiber, index) + (rate > 0.0 ? judge_rigid(fiber, scene.fluid.viscosity, rate, beam) : "");
   std::string text =
       config.model == FiberModel::chain ? describe_chain(fiber, beam, index) : describe_tube(fiber, beam, index);
   const auto [softest, stiffest] =
@@ -85,7 +119,9 @@ std::string describe_repulsion(const SceneConfig& scene, const double rate, cons
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f) {
     radius = std::max(radius, fibers[f].config.radius);
     const double straight =
-        4.0 * std::pow(measure_beam_stiffness(fibers[f]).relaxed_bending / (scene.fluid.viscosity * rate), 0.25);
+        fibers[f].config.is_rigid()
+            ? fibers[f].length()
+            : 4.0 * std::pow(measure_beam_stiffness(fibers[f]).relaxed_bending / (scene.fluid.viscosity * rate), 0.25);
     length = std::max(length, std::min(fibers[f].length(), straight));
   }
   std::string text = fmt::format(

@@ -83,12 +83,12 @@ void check_torques(const SceneConfig& scene, const SceneReader& reader, std::vec
     const std::string path = reader.path_of("torque", i);
     const int fiber = scene.torques[i].fiber;
     if (!reader.is_sound(path) || scene.fibers.empty() || fiber >= count_fibers(scene)) continue;
-    if (scene.fibers[static_cast<std::size_t>(fiber) % scene.fibers.size()].model == FiberModel::chain)
-      reader.add(
-          problems, path + ".fiber",
-          fmt::format("{}.fiber {}: sections of a chain are points, which no torque turns; [[tether]]s may pull at "
-                      "two of them",
-                      path, fiber));
+    if (scene.fibers[static_cast<std::size_t>(fiber) % scene.fibers.size()].is_line())
+      reader.add(problems, path + ".fiber",
+                 fmt::format("{}.fiber {}: sections of chains and rigid fibers are points, which no torque turns; "
+                             "[[tether]]s may pull at "
+                             "two of them",
+                             path, fiber));
   }
 }
 

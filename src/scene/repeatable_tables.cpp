@@ -69,19 +69,19 @@ void visit_chain(KeyVisitor& visitor, FiberConfig& fiber) {
   visitor.integer({"chain_nodes",
                    "",
                    {0.0, 1e9, "0, or 3 or more"},
-                   "of a chain: how many nodes it has along the length of the tube it stands for; 0: about two radii "
-                   "apart"},
+                   "of a chain or a rigid fiber: how many nodes it has along the length of the tube it stands for; 0: "
+                   "about two radii apart"},
                   fiber.chain_nodes);
   visitor.number({"bending_rigidity", "force * length^2", zero_or_more(),
                   "EI of a chain with nodes_per_section = 1, whose EA is spring_stiffness; other chains take both from "
-                  "the tube"},
+                  "the tube. A rigid fiber is only judged by it"},
                  fiber.bending_rigidity);
   visitor.number({"shear_couple", "force * time", zero_or_more(),
-                  "couple on a length of a chain with nodes_per_section = 1 that lies along a shear, over its rate; "
-                  "other chains take it from the tube"},
+                  "couple on a length of a chain or a rigid fiber with nodes_per_section = 1 that lies along a shear, "
+                  "over its rate; others take it from the tube"},
                  fiber.shear_couple);
   visitor.number({"end_couple", "force * length * time", zero_or_more(),
-                  "of a chain with nodes_per_section = 1: the same at either end, beside that on its length"},
+                  "of the same with nodes_per_section = 1: the couple at either end, beside that on the length"},
                  fiber.end_couple);
 }
 
@@ -92,7 +92,7 @@ void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
   visitor.integer({"nodes_per_section",
                    "",
                    {1.0, 1000.0, "3 to 1000, or 1"},
-                   "number of nodes on a cross-section; 1: a chain that stands for no tube"},
+                   "number of nodes on a cross-section; 1: a chain or a rigid fiber that stands for no tube"},
                   fiber.nodes_per_section);
   visitor.number({"radius", "length", above_zero(), "radius of the cross-sections"}, fiber.radius);
   visitor.number(
@@ -165,7 +165,7 @@ const std::vector<RepeatableTable>& repeatable_tables() {
           "r is the rate at the time, x, y and z are measured from the center."),
       make_table(
           "fiber", WhenAbsent::is_an_error, &SceneConfig::fibers, visit_fiber,
-          "A tube of surface nodes, or a chain of single ones, straight at rest; [[fiber]] once for each of several."),
+          "A tube of surface nodes, or a line of single ones, straight at rest; [[fiber]] once for each of several."),
       make_table(
           "tether", WhenAbsent::stands_for_none, &SceneConfig::tethers, visit_tether,
           "A spring that holds a section of a fiber at a point of space, which may move; [[tether]] once for each "

@@ -24,35 +24,64 @@ constexpr double n_frames_allowed = 1e7;
 constexpr double n_steps_allowed = 1e12;
 constexpr double least_duration = 1e-6;  // over the start: less leaves too few digits for steps and frames
 
-/// What a chain and a tube cannot both be asked for.
+/// A rigid fiber's resistance is two matrices, [n_nodes, n_nodes].
+constexpr int n_rigid_nodes_allowed = 2000;
+
+/// What a rigid fiber cannot be asked for.
+void check_rigid(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
+                 std::vector<Problem>& problems) {
+  const auto reject_bend = [&](const char* key, const double value) {
+    if (value > 0.0)
+      reader.add(problems, path + "." + key,
+                 fmt::format("{0}.{1} {2}: a rigid fiber is straight; set it to 0, or take model = \"chain\"", path,
+                             key, format_number(value)));
+  };
+  reject_bend("start_amplitude", fiber.start_amplitude);
+  reject_bend("start_noise", fiber.start_noise);
+  const int n_nodes = lay_out_chain(fiber).sections;
+  if (n_nodes <= n_rigid_nodes_allowed) return;
+  if (fiber.chain_nodes > 0)
+    reader.add(problems, path + ".chain_nodes",
+               fmt::format("{}.chain_nodes {}: a rigid fiber has {} at most", path, n_nodes, n_rigid_nodes_allowed));
+  else
+    reader.add(problems, path + ".sections",
+               fmt::format("{}.sections {}: a rigid fiber of this length would have {} nodes, and {} is the most: set "
+                           "chain_nodes, or take model = \"chain\"",
+                           path, fiber.sections, n_nodes, n_rigid_nodes_allowed));
+}
+
+/// What a line and a tube cannot both be asked for.
 void check_model(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems) {
   const auto reject = [&](const char* key, const std::string& why) {
     reader.add(problems, path + "." + key, fmt::format("{}.{} {}", path, key, why));
   };
-  const bool is_tube = fiber.model == FiberModel::tube, is_bare = !is_tube && fiber.nodes_per_section == 1;
+  const bool is_bare = fiber.is_line() && fiber.nodes_per_section == 1;
   if (fiber.nodes_per_section < 3 && !is_bare)
-    reject("nodes_per_section",
-           fmt::format("{}: a tube has 3 or more, also one that a chain stands for; 1 is of a chain in its own right",
-                       fiber.nodes_per_section));
+    reject("nodes_per_section", fmt::format("{}: a tube has 3 or more, also one that a chain or a rigid fiber stands "
+                                            "for; 1 is of these in their own right",
+                                            fiber.nodes_per_section));
   if (is_bare && fiber.spacing == 0.0)
     reject("spacing", "must be given: single nodes have no neighbours on a section to take it from");
   if (is_bare && fiber.reach_along != 1)
     reject("reach_along", fmt::format("{}: links of a chain join neighbours", fiber.reach_along));
   const auto keep_bare = [&](const char* key, const double value) {
     if (!is_bare && value > 0.0)
-      reject(key, "is of a chain with nodes_per_section = 1; a tube's follows from its springs and nodes");
+      reject(key,
+             "is of a chain or a rigid fiber with nodes_per_section = 1; a tube's follows from its springs and nodes");
   };
   keep_bare("bending_rigidity", fiber.bending_rigidity);
   keep_bare("shear_couple", fiber.shear_couple);
   keep_bare("end_couple", fiber.end_couple);
+  if (fiber.is_rigid()) check_rigid(fiber, path, reader, problems);
   if (fiber.chain_nodes == 0) return;
   if (!fiber.stands_for_tube())
-    reject("chain_nodes", fmt::format("{}: only a chain that stands for a tube, with nodes_per_section = 3 or more, "
-                                      "has another number of nodes than sections",
-                                      fiber.chain_nodes));
+    reject("chain_nodes",
+           fmt::format("{}: only a chain or a rigid fiber that stands for a tube, with nodes_per_section = 3 or more, "
+                       "has another number of nodes than sections",
+                       fiber.chain_nodes));
   else if (fiber.chain_nodes < 3)
-    reject("chain_nodes", fmt::format("{}: a chain bends where two links meet, it needs 3", fiber.chain_nodes));
+    reject("chain_nodes", fmt::format("{}: a line that stands for a tube needs 3", fiber.chain_nodes));
   else if (lay_out_chain(fiber).spacing < 0.5 * fiber.radius)
     reject("chain_nodes",
            fmt::format("{} lie {:.3g} apart, less than half a radius: at most {:.0f} fit", fiber.chain_nodes,
@@ -65,7 +94,7 @@ void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneR
   if (!(norm(fiber.direction) >= smallest_direction)) {
     reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
   }
-  if (fiber.nodes_per_section == 1) return;  // blobs of a chain make up for the radius
+  if (fiber.nodes_per_section == 1) return;  // blobs of a line make up for the radius
   const double spacing = std::max(compute_node_spacing(fiber), compute_section_spacing(fiber));
   if (fiber.blob > fiber.radius) {
     reader.add(warnings, path + ".blob",
@@ -175,6 +204,17 @@ void check_time(const TimeConfig& time, const SceneReader& reader, std::vector<P
   }
 }
 
+void check_method(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  if (scene.time.method != TimeMethod::trbdf2) return;
+  for (std::size_t i = 0; i < scene.fibers.size(); ++i)
+    if (scene.fibers[i].is_rigid())
+      return reader.add(
+          problems, "time.method",
+          fmt::format("time.method \"trbdf2\" is for stiff springs, and does not know what keeps {} rigid; "
+                      "take \"rkc2\", or \"bs3\" where all fibers are rigid",
+                      reader.path_of("fiber", i)));
+}
+
 void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
   if (scene.output.frame_interval == 0.0) return;  // the scene's own time sets it
   const double n_frames = (scene.time.end - scene.time.start) / scene.output.frame_interval;
@@ -205,6 +245,7 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
   if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);
   if (!reader.is_sound("time")) return;
   check_time(scene.time, reader, problems);
+  check_method(scene, reader, problems);
   if (reader.is_sound("output")) check_frame_count(scene, reader, problems);
 }
 

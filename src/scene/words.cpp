@@ -34,7 +34,11 @@ const Words<FiberModel>& words_of<FiberModel>() {
       {"chain",
        "nodes on the centreline that bend, stretch and drag like the tube of the other keys: hundreds of "
        "times cheaper, for bends that are wide against the radius",
-       FiberModel::chain}};
+       FiberModel::chain},
+      {"rigid",
+       "the same nodes on a line that stays straight and keeps its length: for fibers that nothing bends, with steps "
+       "as long as the flow lets them be",
+       FiberModel::rigid}};
   return words;
 }
 

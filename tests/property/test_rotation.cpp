@@ -95,11 +95,12 @@ void add_nodes(const Fiber& fiber, const std::vector<double>& inside, const std:
   const Vec3 w = cross(u, v);
   Vec3 point = center;
   for (int s = 0; s < fiber.config.sections; ++s) {
+    if (fiber.config.is_line()) nodes.push_back(point);
     const Vec3 along =
         std::cos(outside[s]) * (std::cos(inside[s]) * u + std::sin(inside[s]) * v) + std::sin(outside[s]) * w;
     Vec3 across = cross(along, std::abs(dot(along, w)) < 0.7 ? w : v);
     across = across / norm(across);
-    for (int a = 0; a < fiber.config.nodes_per_section; ++a) {
+    for (int a = 0; a < fiber.config.nodes_per_section && !fiber.config.is_line(); ++a) {
       const double angle = 2.0 * pi * a / fiber.config.nodes_per_section;
       nodes.push_back(point +
                       fiber.config.radius * (std::cos(angle) * across + std::sin(angle) * cross(along, across)));
@@ -117,13 +118,20 @@ MovingScene draw_scene(reference::Random& random) {
     fiber.nodes_per_section = 4 + static_cast<int>(random.bits() % 3);
     fiber.blob = 0.004;
   }
+  // Some of the second fibers are rigid, some chains; without the couple of a shear, which is of a scene's flow.
+  if (moving.scene.fibers.size() == 2 && moving.scene.fibers[1].sections % 3 > 0) {
+    FiberConfig& line = moving.scene.fibers[1];
+    line.model = line.sections % 3 == 1 ? FiberModel::chain : FiberModel::rigid;
+    line.nodes_per_section = 1;
+    line.spacing = line.blob = 0.007;
+  }
   add_forces(moving.scene, random);
   moving.position.resize(n_frames);
   for (int i = 0; i < n_frames; ++i) moving.time.push_back(0.05 * i);
   double place = 0.0;
   for (const Fiber& fiber : make_fibers(moving.scene.fibers)) {
     constexpr double strengths[] = {0.0, 0.02, 0.7, 2.0, 5.0};
-    const double strength = strengths[random.bits() % 5],
+    const double drawn = strengths[random.bits() % 5], strength = fiber.config.is_rigid() ? 0.0 : drawn,
                  lift = random.bits() % 2 == 0 ? 0.0 : random.uniform(0.0, 1.0);
     double height[4], phase[4];
     for (int k = 0; k < 4; ++k) {

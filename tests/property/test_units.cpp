@@ -61,7 +61,9 @@ SceneConfig make_random_scene(Random& random) {
   scene.fibers = {make_random_fiber(random, {})};
   if (random.bits() % 2 == 0) {
     scene.fibers.push_back(make_random_fiber(random, {0.02, 0.01, -0.02}));
-    if (random.bits() % 2 == 0) scene.fibers.back().model = FiberModel::chain;
+    constexpr FiberModel models[] = {FiberModel::tube, FiberModel::chain, FiberModel::rigid};
+    scene.fibers.back().model = models[random.bits() % 3];
+    if (scene.fibers.back().is_rigid()) scene.fibers.back().start_noise = 0.0;
   }
   if (random.bits() % 2 == 0) scene.repulsion = {random.log_uniform(0.1, 10.0), random.uniform(0.002, 0.01)};
   if (random.bits() % 3 == 0) scene.gravity = {random.log_uniform(0.1, 10.0), random.direction()};
@@ -70,6 +72,7 @@ SceneConfig make_random_scene(Random& random) {
                       random.in_cube(0.01), random.uniform(0.0, 30.0)}};
   if (random.bits() % 3 == 0) scene.torques = {{0, 1, random.in_cube(1e-4), random.in_cube(20.0)}};
   scene.time.method = methods[random.bits() % 6];
+  if (scene.fibers.back().is_rigid() && scene.time.method == TimeMethod::trbdf2) scene.time.method = TimeMethod::bs3;
   const bool is_explicit = scene.time.method >= TimeMethod::rk4 || scene.time.method == TimeMethod::euler;
   scene.time.end = is_explicit ? 0.06 : 0.25;
   if (scene.time.method == TimeMethod::euler) scene.time.step = 5e-4;

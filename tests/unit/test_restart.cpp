@@ -175,6 +175,19 @@ TEST(Restart, OfFibersThatRepelEachOtherIsExactAtEveryStep) {
   }
 }
 
+// What fibers do to each other is found anew in every evaluation, and rigid ones are put back in every step.
+TEST(Restart, OfRigidFibersIsExactAtEveryStep) {
+  for (const FiberModel last : {FiberModel::rigid, FiberModel::tube})
+    for (const TimeMethod method : {TimeMethod::rkc2, TimeMethod::bs3, TimeMethod::automatic}) {
+      SceneConfig scene =
+          make_scene(3, [&](TimeConfig& time) { time.method = method, time.end = 0.3, time.max_step = 0.01; });
+      for (FiberConfig& fiber : scene.fibers) fiber.model = FiberModel::rigid, fiber.sections = 12;
+      scene.fibers.back().model = last;
+      if (last == FiberModel::tube) scene.time.max_step = 1e-3, scene.time.end = 0.03;
+      expect_exact_restarts(scene, 25);
+    }
+}
+
 TEST(Restart, WithAnotherNumberOfNodesIsRefused) {
   FiberRun one(make_scene(1, [](TimeConfig&) {})), two(make_scene(2, [](TimeConfig&) {}));
   EXPECT_EQ(code_of([&] { two.restore(one.save()); }), ExitCode::damaged_data);

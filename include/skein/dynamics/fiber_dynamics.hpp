@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/dynamics/constrained_motion.hpp>
 #include <skein/dynamics/fiber_linearization.hpp>
 #include <skein/physics/physics.hpp>
 #include <skein/solvers/right_hand_side.hpp>
@@ -9,7 +10,8 @@
 
 namespace skein {
 
-/// Fibers in a viscous fluid: velocity = background flow + M(position) force(position).
+/// Fibers in a viscous fluid: velocity = background flow + M(position) force(position), the force with what keeps rigid
+/// fibers rigid (see ConstrainedMotion).
 class FiberDynamics final : public RightHandSide {
  public:
   /// @param physics  must outlive the object
@@ -22,6 +24,9 @@ class FiberDynamics final : public RightHandSide {
   std::string find_fault(const ConstVectors& position) const override;
   static constexpr double burst_ratio = 2.0;
 
+  /// Rigid fibers' nodes are put onto the rigid body that fits them best.
+  void project(const Vectors& position) override;
+
   std::int64_t evaluations() const override { return evaluations_; }
   const TimeCourse& time_course() const override { return course_; }
 
@@ -29,6 +34,7 @@ class FiberDynamics final : public RightHandSide {
   void visit_memory(MemoryVisitor& visitor) override { physics_.mobility->visit_memory(visitor); }
 
   /// M(position) dF/dx: neither the flow's gradient nor the change of M, which are no faster than the shear.
+  /// Null where a fiber is rigid: what keeps it so answers every displacement of the others.
   Linearization* linearization() override;
 
   /// Wall time spent in evaluations, by parts, seconds. On a device, where waiting costs, an estimate from one in
@@ -47,7 +53,8 @@ class FiberDynamics final : public RightHandSide {
 
   Physics& physics_;
   TimeCourse course_;
-  Vectors force_;
+  ConstrainedMotion motion_;
+  Vectors force_, places_;
   std::int64_t evaluations_ = 0;
   Seconds seconds_;
   std::unique_ptr<FiberLinearization> linearization_;

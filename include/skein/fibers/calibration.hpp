@@ -17,8 +17,9 @@ std::vector<Vec3> make_bent_nodes(const Fiber& fiber, double curvature);
 /// EI = 2 E / (curvature^2 L), L = N_f ds, from the energy E of the bent fiber. force * length^2
 double measure_bending_rigidity(const Fiber& fiber, double curvature);
 
-/// Stiffness of the fiber as a beam; where it varies along the fiber, the mean. A chain's is that of its keys, however
-/// its sections are held, without resistance to twist.
+/// Stiffness of the fiber as a beam; where it varies along the fiber, the mean. A line's is that of its keys, however
+/// its sections are held, without resistance to twist; a rigid one's is that of the fiber that it is rigid in the stead
+/// of.
 ///
 /// Rigid sections, kept circular and plane, are the paper's definition of EI. Sections that are free give way: at
 /// equilibrium they shrink where the fiber is stretched and move against the bend, so that EI and EA are 9 to 19 %

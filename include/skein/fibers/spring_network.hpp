@@ -39,7 +39,8 @@ struct SpringNetwork {
 };
 
 /// Every pair inside a section and every pair between adjacent sections, all of stiffness k, where the fiber asks for
-/// nothing else (reach_along, reach_around, stiffness_profile and the factors within and between sections).
+/// nothing else (reach_along, reach_around, stiffness_profile and the factors within and between sections). None where
+/// it is rigid.
 SpringNetwork make_spring_network(const Fiber& fiber);
 std::vector<SpringNetwork> make_spring_networks(const std::vector<Fiber>& fibers);
 

@@ -4,7 +4,7 @@
 
 namespace skein {
 
-/// What a chain takes over from the tube in whose stead it stands, and how well it does.
+/// What a chain, or a rigid fiber, takes over from the tube in whose stead it stands, and how well it does.
 struct ChainMatch {
   double blob = 0.0;          ///< with which the straight chain is turned against as much drag as the tube, length
   double shear_couple = 0.0;  ///< on a length of its middle that lies along a shear, over its rate, force * time
@@ -15,14 +15,14 @@ struct ChainMatch {
 
 /// From rigid tubes and rigid chains in double. Of long tubes a piece of 320 sections, or 120 radii, is looked at: what
 /// lies farther apart adds nothing to blob and couple.
-/// @param fiber  a chain that stands for a tube
+/// @param fiber  a chain or a rigid fiber that stands for a tube
 /// @throws Error(scene_error) where the tube's blob is too large, the tube too short, or no blob of the chain matches
 /// it
 ChainMatch match_chain(const FiberConfig& fiber, double viscosity);
 
-/// The scene with every chain that stands for a tube turned into one with numbers of its own: nodes a spacing apart
-/// along the tube's centreline, EI and EA of the tube at equilibrium, blob and couple of match_chain. A run folder's
-/// scene is such a one. Others come back as they are.
+/// The scene with every chain and rigid fiber that stands for a tube turned into one with numbers of its own: nodes a
+/// spacing apart along the tube's centreline, EI and EA of the tube at equilibrium, blob and couple of match_chain. A
+/// run folder's scene is such a one. Others come back as they are.
 /// @throws Error(scene_error) as match_chain does, with the fiber's number
 SceneConfig resolve_chains(const SceneConfig& scene);
 

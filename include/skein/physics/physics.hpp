@@ -4,6 +4,7 @@
 #include <skein/physics/background_flow.hpp>
 #include <skein/physics/force.hpp>
 #include <skein/physics/mobility.hpp>
+#include <skein/physics/rigid_bodies.hpp>
 #include <skein/physics/sections.hpp>
 #include <skein/scene/scene_config.hpp>
 
@@ -21,11 +22,13 @@ struct Physics {
   std::vector<std::unique_ptr<Force>> forces;  ///< in the order in which they are added up; springs first
   std::unique_ptr<BackgroundFlow> flow;
   std::unique_ptr<Mobility> mobility;
-  Sections sections;       ///< of the fibers
-  Scalars blob;            ///< [n_nodes], length
-  double viscosity = 1.0;  ///< force * time / length^2
+  RigidBodies rigid_bodies;  ///< those of the fibers that are rigid
+  Sections sections;         ///< of the fibers
+  Scalars blob;              ///< [n_nodes], length
+  double viscosity = 1.0;    ///< force * time / length^2
 
-  /// Overwrites force, [n_nodes, 3], with the sum of all forces on each node.
+  /// Overwrites force, [n_nodes, 3], with the sum of all forces on each node; what keeps fibers rigid is not among
+  /// them.
   void compute_forces(double time, const ConstVectors& position, const Vectors& force) const;
 
   /// Overwrites change, [n_nodes, 3], with the first-order change of the forces when nodes move by `displacement`.

@@ -13,7 +13,7 @@ namespace skein {
 enum class FlowKind { shear, planar_extension, uniaxial_extension, rotation, poiseuille, vortices, none };
 
 /// What a fiber is made of.
-enum class FiberModel { tube, chain };
+enum class FiberModel { tube, chain, rigid };
 
 /// Where fibers stand.
 enum class PlacementKind { as_written, grid, random };

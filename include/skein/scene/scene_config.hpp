@@ -46,14 +46,14 @@ struct ProfilePoint {
   friend bool operator==(const ProfilePoint&, const ProfilePoint&) = default;
 };
 
-/// One tube of surface nodes, or a chain of single ones, straight at rest; several instances make several fibers.
+/// One tube of surface nodes, or a line of single ones, straight at rest; several instances make several fibers.
 ///
-/// A chain whose nodes_per_section is 1 is what its keys say: spring_stiffness is EA. One with more nodes stands for
-/// the tube of the same keys and is turned into the other kind by resolve_chains.
+/// A line is a chain or rigid. One whose nodes_per_section is 1 is what its keys say: spring_stiffness is EA. One with
+/// more nodes stands for the tube of the same keys and is turned into the other kind by resolve_chains.
 struct FiberConfig {
   FiberModel model = FiberModel::tube;
   int sections = 80;                 ///< N_f, >= 2
-  int nodes_per_section = 18;        ///< N_c, >= 3; 1 for a chain as such
+  int nodes_per_section = 18;        ///< N_c, >= 3; 1 for a line as such
   double radius = 0.005;             ///< R, length
   double spring_stiffness = 0.0112;  ///< k, force
   double blob = 0.00225;             ///< regularization length eps of this fiber's nodes
@@ -73,13 +73,16 @@ struct FiberConfig {
   int reach_around = 0;  ///< ... and nodes whose places on their sections differ by up to this; 0: all
   double spacing = 0.0;  ///< ds between sections, length; 0: the chord between neighbours on a section
 
-  int chain_nodes = 0;            ///< of a chain in a tube's stead; 0: about two radii apart
-  double bending_rigidity = 0.0;  ///< EI of a chain as such, force * length^2
-  double shear_couple = 0.0;      ///< of a chain as such: couple per length and rate of shear, force * time
-  double end_couple = 0.0;        ///< of a chain as such: couple per rate of shear at each end, force * length * time
+  int chain_nodes = 0;            ///< of a line in a tube's stead; 0: about two radii apart
+  double bending_rigidity = 0.0;  ///< EI of a line as such, force * length^2; a rigid one is judged by it, not bent
+  double shear_couple = 0.0;      ///< of a line as such: couple per length and rate of shear, force * time
+  double end_couple = 0.0;        ///< of a line as such: couple per rate of shear at each end, force * length * time
 
-  /// True where it waits to be turned into a chain with numbers of its own, see resolve_chains.
-  bool stands_for_tube() const { return model == FiberModel::chain && nodes_per_section > 1; }
+  /// True where single nodes on the centreline make the fiber, or will when it is laid out.
+  bool is_line() const { return model != FiberModel::tube; }
+  bool is_rigid() const { return model == FiberModel::rigid; }
+  /// True where it waits to be turned into a line with numbers of its own, see resolve_chains.
+  bool stands_for_tube() const { return is_line() && nodes_per_section > 1; }
   friend bool operator==(const FiberConfig&, const FiberConfig&) = default;
 };
 
