@@ -1,14 +1,15 @@
 #include "studies/ladder_table.hpp"
 
+#include "studies/rung.hpp"
+
 #include <fmt/format.h>
+
+#include <limits>
 
 namespace skein {
 namespace {
 
-std::string name_rung(const int nodes_per_section) {
-  if (nodes_per_section == 0) return "no rung";
-  return nodes_per_section == 1 ? "a chain" : fmt::format("{} nodes on a section", nodes_per_section);
-}
+std::string name(const int rung) { return rung == 0 ? "no rung" : name_rung(rung); }
 
 }  // namespace
 
@@ -21,6 +22,7 @@ const std::vector<LadderRow>& list_ladder() {
 }
 
 double find_ladder_error(const int nodes_per_section) {
+  if (nodes_per_section < list_ladder().front().nodes_per_section) return std::numeric_limits<double>::quiet_NaN();
   double error = list_ladder().front().error;
   for (const LadderRow& row : list_ladder())
     if (row.nodes_per_section <= nodes_per_section) error = row.error;
@@ -37,7 +39,7 @@ std::string describe_ladder() {
   return fmt::format(
       "resolution: for the paper's fibers in shear {} would do for 1 %, {} for 5 %, {} for 20 %; 'skein plan' measures "
       "what this scene needs",
-      name_rung(find_ladder_rung(0.01)), name_rung(find_ladder_rung(0.05)), name_rung(find_ladder_rung(0.2)));
+      name(find_ladder_rung(0.01)), name(find_ladder_rung(0.05)), name(find_ladder_rung(0.2)));
 }
 
 }  // namespace skein

@@ -13,7 +13,8 @@ struct LadderRow {
 };
 const std::vector<LadderRow>& list_ladder();
 
-/// The error of a rung by that table; between its rows the coarser one's, and beyond them the ends'.
+/// The error of a rung by that table; between its rows the coarser one's, beyond them the last one's. Not a number of
+/// rigid fibers, below them: all depends on what bends the fibers of a scene.
 double find_ladder_error(int nodes_per_section);
 
 /// The fewest nodes on a section that are within a tolerance by that table; 0 where none are.

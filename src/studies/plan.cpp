@@ -47,12 +47,12 @@ class Planner {
 
   void list_candidates() {
     int finest = 0;
-    for (const FiberConfig& fiber : scene_.fibers) finest = std::max(finest, fiber.nodes_per_section);
+    for (const FiberConfig& fiber : scene_.fibers) finest = std::max({finest, find_rung(fiber), chain_rung});
     const bool has_torque = !scene_.torques.empty();
-    std::vector<int> rungs;
-    if (finest > 1 && !has_torque) rungs.push_back(1);  // a chain knows no twist
+    std::vector<int> rungs{rigid_rung};
+    if (finest > chain_rung && !has_torque) rungs.push_back(chain_rung);  // a chain knows no twist
     for (const LadderRow& row : list_ladder())
-      if (row.nodes_per_section > 1) rungs.push_back(row.nodes_per_section);
+      if (row.nodes_per_section > chain_rung) rungs.push_back(row.nodes_per_section);
     rungs.push_back(finest);
     std::sort(rungs.begin(), rungs.end());
     rungs.erase(std::unique(rungs.begin(), rungs.end()), rungs.end());
@@ -66,9 +66,17 @@ class Planner {
       }
       candidate.n_nodes = count_nodes(make_fibers(candidate.scene.fibers));
       candidate.error = std::numeric_limits<double>::quiet_NaN();
+      if (const std::string bar = find_bar_to_rigid(scene_); rung == rigid_rung && !bar.empty()) {
+        candidate.error = std::numeric_limits<double>::infinity();
+        candidate.verdict = bar;
+      }
       plan_.candidates.push_back(std::move(candidate));
     }
-    if (plan_.candidates.empty()) throw Error(ExitCode::scene_error, "no tube stands for the scene's fibers");
+    // Rigid fibers have steps of their own, whose errors say nothing of those that bend.
+    const auto bends = std::find_if(plan_.candidates.begin(), plan_.candidates.end(),
+                                    [](const Candidate& c) { return c.nodes_per_section > rigid_rung; });
+    if (bends == plan_.candidates.end()) throw Error(ExitCode::scene_error, "no tube stands for the scene's fibers");
+    coarsest_index_ = static_cast<std::size_t>(bends - plan_.candidates.begin());
   }
 
   /// @returns none where there is no time for it, or it did not get past a tenth of the scene's time
@@ -82,15 +90,16 @@ class Planner {
     return pilot;
   }
 
-  /// The longest steps whose error is a quarter of the tolerance, by the coarsest tube.
+  /// The longest steps whose error is a quarter of the tolerance, by the coarsest rung that bends.
   void choose_steps() {
     plan_.time_tolerance = scene_.time.tolerance;
     if (scene_.time.step > 0.0) return;  // the scene says how long they are
-    SceneConfig scene = plan_.candidates.front().scene;
+    const Candidate& coarsest = plan_.candidates[coarsest_index_];
+    SceneConfig scene = coarsest.scene;
     const auto pilot_at = [&](const double factor) {
       scene.time.tolerance = factor * scene_.time.tolerance;
-      return run(scene, fmt::format("pilot: {} nodes on a section, time.tolerance {:.3g}",
-                                    plan_.candidates.front().nodes_per_section, scene.time.tolerance));
+      return run(scene, fmt::format("pilot: {}, time.tolerance {:.3g}", name_rung(coarsest.nodes_per_section),
+                                    scene.time.tolerance));
     };
     const auto best = pilot_at(0.3);
     if (!best) return;
@@ -116,8 +125,9 @@ class Planner {
     for (std::size_t i = 0; i < plan_.candidates.size(); ++i) {
       Candidate& candidate = plan_.candidates[i];
       candidate.scene.time.tolerance = plan_.time_tolerance;
-      const std::string words = fmt::format("pilot: {} nodes on a section", candidate.nodes_per_section);
-      auto pilot = i == 0 && coarsest_ ? std::move(coarsest_) : run(candidate.scene, words);
+      if (!candidate.verdict.empty()) continue;
+      const std::string words = "pilot: " + name_rung(candidate.nodes_per_section);
+      auto pilot = i == coarsest_index_ && coarsest_ ? std::move(coarsest_) : run(candidate.scene, words);
       if (!pilot) return;
       note(candidate, *pilot);
       if (!pilot->failure.empty()) {
@@ -171,7 +181,7 @@ class Planner {
       scene.hydrodynamics.precision = Precision::in_single;
       try_out(std::move(scene), "direct sums with pairs in single precision");
     }
-    if (scene_.time.method == TimeMethod::rkc2) {
+    if (scene_.time.method == TimeMethod::rkc2 && chosen.nodes_per_section > rigid_rung) {
       SceneConfig scene = chosen.scene;
       scene.time.method = TimeMethod::trbdf2;
       try_out(std::move(scene), "the implicit method TR-BDF2");
@@ -204,7 +214,7 @@ class Planner {
     const auto known = std::find_if(plan_.candidates.rbegin(), plan_.candidates.rend(),
                                     [](const Candidate& c) { return c.seconds > 0.0; });
     for (Candidate& candidate : plan_.candidates) {
-      if (candidate.seconds > 0.0 || known == plan_.candidates.rend()) continue;
+      if (candidate.seconds > 0.0 || std::isinf(candidate.error) || known == plan_.candidates.rend()) continue;
       candidate.seconds = known->seconds * std::pow(1.0 * candidate.n_nodes / known->n_nodes, 2);
     }
     for (std::size_t i = 0; i < plan_.candidates.size(); ++i) {
@@ -221,8 +231,8 @@ class Planner {
   void explain() {
     if (plan_.chosen >= 0) {
       const Candidate& chosen = plan_.candidates[plan_.chosen];
-      plan_.reason = fmt::format("{} nodes on a section are the fewest whose answers stay within {:g} %",
-                                 chosen.nodes_per_section, 100.0 * request_.tolerance);
+      plan_.reason = fmt::format("{}: the lowest rung whose answers stay within {:g} %",
+                                 name_rung(chosen.nodes_per_section), 100.0 * request_.tolerance);
       if (!chosen.found.empty()) plan_.reason += ", by their difference from the next rung";
       return;
     }
@@ -242,6 +252,7 @@ class Planner {
   const PlanRequest& request_;
   const std::function<void(const std::string&)>& say_;
   WallClock::time_point start_;
+  std::size_t coarsest_index_ = 0;          ///< of the candidates: the lowest rung that bends
   std::optional<Pilot> coarsest_, chosen_;  ///< pilots that serve once more
   Plan plan_;
 };

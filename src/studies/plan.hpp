@@ -19,7 +19,7 @@ struct PlanRequest {
 
 /// One way to run the scene.
 struct Candidate {
-  int nodes_per_section = 0;
+  int nodes_per_section = 0;  ///< or a rung below all tubes, see rung.hpp
   int n_nodes = 0;
   SceneConfig scene;               ///< what is run
   double error = 0.0;              ///< predicted; not a number where nothing is known
@@ -42,9 +42,9 @@ struct Plan {
   std::string contact;   ///< what is known of surfaces that touch; empty: nothing touches
 };
 
-/// Finds it by pilot runs of the scene, from the coarsest tube on: each is compared with the one above, whose own
+/// Finds it by pilot runs of the scene, from rigid fibers on: each is compared with the one above, whose own
 /// error is that of the table of convergence (ladder_table.hpp), between half of the difference and one and a half of
-/// it. Steps are as long as a quarter of the tolerance lets them be, found on the coarsest tube. Needs Kokkos.
+/// it. Steps are as long as a quarter of the tolerance lets them be, found on the lowest rung that bends. Needs Kokkos.
 /// @param scene  its fibers are as written
 /// @param say    called with a line before each pilot
 Plan make_plan(const SceneConfig& scene, const PlanRequest& request,

@@ -1,6 +1,7 @@
 #include <skein/core/json.hpp>
 
 #include "studies/plan.hpp"
+#include "studies/rung.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,10 @@ std::string in_percent(const double error) {
   return fmt::format("{:.2g} %", 100.0 * error);
 }
 
+std::string name_briefly(const int rung) {
+  return rung == rigid_rung ? "rigid" : rung == chain_rung ? "chain" : fmt::format("{}", rung);
+}
+
 std::string in_seconds(const double seconds) { return seconds > 0.0 ? fmt::format("{:.3g} s", seconds) : "unknown"; }
 
 }  // namespace
@@ -22,8 +27,9 @@ std::string describe_plan(const Plan& plan, const PlanRequest& request) {
   std::string text =
       fmt::format("{:<18} {:>9} {:>12} {:>12}  {}\n", "nodes per section", "nodes", "error", "wall time", "verdict");
   for (const Candidate& candidate : plan.candidates) {
-    text += fmt::format("{:<18} {:>9} {:>12} {:>12}  {}\n", candidate.nodes_per_section, candidate.n_nodes,
-                        in_percent(candidate.error), in_seconds(candidate.seconds), candidate.verdict);
+    text +=
+        fmt::format("{:<18} {:>9} {:>12} {:>12}  {}\n", name_briefly(candidate.nodes_per_section), candidate.n_nodes,
+                    in_percent(candidate.error), in_seconds(candidate.seconds), candidate.verdict);
     for (const AnswerError& found : candidate.found)
       text += fmt::format("    {} differs by {} from the next\n", name_of(found.question), in_percent(found.error));
   }

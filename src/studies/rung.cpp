@@ -79,11 +79,11 @@ void move_loads(SceneConfig& scene, const std::vector<int>& before) {
   rescale(scene.torques);
 }
 
-SceneConfig make_chain_scene(SceneConfig scene) {
+SceneConfig make_line_scene(SceneConfig scene, const FiberModel model) {
   std::vector<int> before;
   for (FiberConfig& fiber : scene.fibers) {
     before.push_back(fiber.sections);
-    fiber.model = FiberModel::chain;
+    fiber.model = model;
   }
   scene = resolve_chains(scene);
   move_loads(scene, before);
@@ -92,11 +92,32 @@ SceneConfig make_chain_scene(SceneConfig scene) {
 
 }  // namespace
 
+int find_rung(const FiberConfig& fiber) {
+  if (fiber.is_rigid()) return rigid_rung;
+  return fiber.is_line() ? chain_rung : fiber.nodes_per_section;
+}
+
+std::string name_rung(const int nodes_per_section) {
+  if (nodes_per_section == rigid_rung) return "rigid fibers";
+  return nodes_per_section == chain_rung ? "a chain" : fmt::format("{} nodes on a section", nodes_per_section);
+}
+
+std::string find_bar_to_rigid(const SceneConfig& scene) {
+  const auto has = [&](const auto& property) {
+    return std::any_of(scene.fibers.begin(), scene.fibers.end(), property);
+  };
+  if (has([](const FiberConfig& fiber) { return fiber.start_amplitude > 0.0 || fiber.start_noise > 0.0; }))
+    return "fibers start bent";
+  if (!scene.torques.empty()) return "torques turn sections";
+  if (scene.time.method == TimeMethod::trbdf2) return "time.method is \"trbdf2\"";
+  return {};
+}
+
 RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
   RungFit fit{fiber};
   if (fiber.nodes_per_section == nodes_per_section) return fit;
-  if (fiber.model == FiberModel::chain)
-    throw Error(ExitCode::scene_error, "a chain has no surface that other numbers of nodes could resolve");
+  if (fiber.is_line())
+    throw Error(ExitCode::scene_error, "a line has no surface that other numbers of nodes could resolve");
   const Fiber fine = make_fibers({fiber})[0];
   FiberConfig& coarse = fit.fiber;
   coarse.nodes_per_section = nodes_per_section;
@@ -118,7 +139,8 @@ RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
 }
 
 SceneConfig make_rung_scene(SceneConfig scene, const int nodes_per_section) {
-  if (nodes_per_section == 1) return make_chain_scene(std::move(scene));
+  if (nodes_per_section == rigid_rung) return make_line_scene(std::move(scene), FiberModel::rigid);
+  if (nodes_per_section == chain_rung) return make_line_scene(std::move(scene), FiberModel::chain);
   std::vector<int> before;
   FiberKinds rungs([&](const FiberConfig& fiber) { return fit_rung(fiber, nodes_per_section).fiber; });
   for (FiberConfig& fiber : scene.fibers) {

@@ -2,6 +2,8 @@
 
 #include <skein/scene/scene_config.hpp>
 
+#include <string>
+
 namespace skein {
 
 /// How well a tube of fewer or more nodes stands for another.
@@ -19,8 +21,20 @@ struct RungFit {
 /// @throws Error(scene_error) where no blob serves, between a fifth of the nodes' distance and two and a half of it
 RungFit fit_rung(const FiberConfig& fiber, int nodes_per_section);
 
-/// The scene with every fiber so, or, with 1, as a chain (see resolve_chains); sections that tethers hold and torques
-/// turn are the nearest ones.
+/// The rungs below all tubes.
+inline constexpr int rigid_rung = 0, chain_rung = 1;
+
+/// Of a fiber as it is written.
+int find_rung(const FiberConfig& fiber);
+
+/// In words, such as "5 nodes on a section".
+std::string name_rung(int nodes_per_section);
+
+/// Why no rigid fibers can stand for a scene's; empty where they can.
+std::string find_bar_to_rigid(const SceneConfig& scene);
+
+/// The scene with every fiber so, or, with one of the rungs below, as a chain or rigid (see resolve_chains); sections
+/// that tethers hold and torques turn are the nearest ones.
 SceneConfig make_rung_scene(SceneConfig scene, int nodes_per_section);
 
 }  // namespace skein

@@ -66,6 +66,18 @@ class Planning(InFreshFolder):
         nodes = int(re.search(r"nodes_per_section = (\d+)", (self.folder / "quick/scene.toml").read_text()).group(1))
         self.assertLess(nodes, 9)
 
+    def test_a_fiber_that_nothing_bends_is_taken_for_rigid(self):
+        code, plan = self.plan("--tolerance", "0.1", "--set", "fiber.spring_stiffness=2.0", "-o", "planned.toml")
+        self.assertEqual(code, DONE, plan)
+        self.assertEqual(plan["chosen"], 0)
+        self.assertIn('model = "rigid"', (self.folder / "planned.toml").read_text())
+        self.expect(DONE, "run", "planned.toml", "-o", "planned", "-q")
+        self.expect(DONE, "verify", "planned")
+        for override, known in (("fiber.spring_stiffness=0.0245", "fails"), ("fiber.start_amplitude=0.01", "bent")):
+            _, plan = self.plan("--tolerance", "0.2", "--set", override, "--set", "time.end=6")
+            self.assertNotEqual(plan["chosen"], 0)
+            self.assertIn(known, plan["candidates"][0]["verdict"])
+
     def test_a_tolerance_that_no_rung_meets_is_told_with_what_fails(self):
         code, plan = self.plan("--tolerance", "0.0001", "--set", "time.end=2.0")
         self.assertEqual(code, NO_RUNG)

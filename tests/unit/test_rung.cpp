@@ -78,6 +78,33 @@ TEST(Rung, OfASceneHoldsAndTurnsTheSamePlaces) {
   EXPECT_LT(rung.fibers[1].sections, rung.fibers[0].sections);
 }
 
+TEST(Rung, BelowTheChainIsRigidAndHeldAtTheSamePlaces) {
+  SceneConfig scene = make_paper_scene(101, 30.0);
+  scene.tethers = {{0, 50}, {0, -1}};
+  const SceneConfig chain = make_rung_scene(scene, chain_rung);
+  SceneConfig rigid = make_rung_scene(scene, rigid_rung);
+  EXPECT_TRUE(rigid.fibers[0].is_rigid());
+  EXPECT_EQ(find_rung(rigid.fibers[0]), rigid_rung);
+  rigid.fibers[0].model = FiberModel::chain;
+  EXPECT_EQ(rigid, chain);
+}
+
+TEST(Rung, SaysWhatBarsRigidFibers) {
+  const SceneConfig straight = make_paper_scene(101, 30.0);
+  EXPECT_EQ(find_bar_to_rigid(straight), "");
+  for (double FiberConfig::*const key : {&FiberConfig::start_amplitude, &FiberConfig::start_noise}) {
+    SceneConfig bent = straight;
+    bent.fibers[0].*key = 0.01;
+    EXPECT_NE(find_bar_to_rigid(bent).find("bent"), std::string::npos);
+  }
+  SceneConfig other = straight;
+  other.torques.push_back({0, 0});
+  EXPECT_NE(find_bar_to_rigid(other).find("torque"), std::string::npos);
+  other = straight;
+  other.time.method = TimeMethod::trbdf2;
+  EXPECT_NE(find_bar_to_rigid(other).find("trbdf2"), std::string::npos);
+}
+
 TEST(Rung, IsRefusedWhereNoBlobServes) {
   FiberConfig thick = make_paper_scene(20, 30.0).fibers[0];
   thick.blob = 0.0049;
