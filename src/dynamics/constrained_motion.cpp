@@ -13,7 +13,7 @@ namespace {
 constexpr int max_iterations = 200;
 // Of the forces' root mean square. What the forces of a fiber miss has neither sum nor torque, and does little to
 // others.
-constexpr double least_share = 1e-10;
+constexpr double least_share = 1e-8;
 constexpr double share_of_mobility_error = 0.1;
 constexpr double rounding = 1e-13;  // of velocities
 

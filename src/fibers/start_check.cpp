@@ -129,6 +129,20 @@ bool touches_itself(const Fiber& fiber, const std::vector<SectionPose>& poses) {
   return false;
 }
 
+double measure_bend(const Fiber& fiber, const std::span<const Vec3> position) {
+  const int n = fiber.n_nodes();
+  const auto place = [&](const int node) { return (node - 0.5 * (n - 1)) * fiber.spacing(); };
+  Vec3 center, moment;
+  for (int node = 0; node < n; ++node) {
+    center = center + position[node] / static_cast<double>(n);
+    moment = moment + place(node) * position[node];
+  }
+  double bend = 0.0;
+  for (int node = 0; node < n; ++node)
+    bend = std::max(bend, norm(position[node] - center - (place(node) / norm(moment)) * moment));
+  return bend;
+}
+
 std::vector<KeyProblem> find_start_problems(const SceneConfig& scene) {
   std::vector<KeyProblem> problems;
   const int n_fibers = static_cast<int>(scene.fibers.size()), n_copies = static_cast<int>(count_fibers(scene));

@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/fibers/start_check.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/start_file.hpp>
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace skein {
 namespace {
@@ -28,6 +30,20 @@ std::vector<Vec3> take_positions(const Checkpoint& start, const SceneConfig& sce
   position.reserve(n_nodes);
   for (std::size_t i = 0; i < numbers.size(); i += 3) position.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
   return position;
+}
+
+/// The state of fibers that were elastic is no start of rigid ones.
+void check_rigid_fibers(const SceneConfig& scene, const std::vector<Vec3>& position) {
+  constexpr double largest_bend = 1e-4;  // of the length
+  for (const Fiber& fiber : make_fibers(scene.fibers)) {
+    if (!fiber.config.is_rigid()) continue;
+    const double bend = measure_bend(fiber, std::span(position).subspan(fiber.first_node, fiber.n_nodes()));
+    if (bend > largest_bend * fiber.length())
+      throw Error(ExitCode::scene_error,
+                  fmt::format("fiber {} is rigid here, and bent by {:.3g} there: begin where it is straight, or take "
+                              "model = \"chain\"",
+                              fiber.index, bend));
+  }
 }
 
 }  // namespace
@@ -50,7 +66,9 @@ std::vector<Vec3> decode_start(const std::string& bytes, const std::filesystem::
     if (const std::string found = checksum_of_start(bytes); found != scene.start.checksum)
       throw Error(ExitCode::damaged_data,
                   fmt::format("its xxh3 is {}, and the scene names {}", found, scene.start.checksum));
-    return take_positions(decode_checkpoint(bytes), scene);
+    std::vector<Vec3> position = take_positions(decode_checkpoint(bytes), scene);
+    check_rigid_fibers(scene, position);
+    return position;
   } catch (const Error& error) {
     throw Error(error.code(), fmt::format("'{}' is not the start of this scene: {}.", file.string(), error.what()));
   }

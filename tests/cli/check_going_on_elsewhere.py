@@ -131,6 +131,17 @@ class GoingOnElsewhere(unittest.TestCase):
             self.assertIn(said, result.stderr)
         self.assertFalse((self.folder / "none").exists())
 
+    def test_a_fiber_that_is_bent_is_no_start_of_a_rigid_one(self):
+        self.run_parent(['fiber.model="chain"', "fiber.start_amplitude=0.02"])
+        rigid = ['fiber.model="rigid"', "fiber.start_amplitude=0.0", "time.end=0.6"]
+        result = self.run_child(overrides=rigid, code=program.SCENE_ERROR)
+        self.assertIn("fiber 0 is rigid here, and bent by", result.stderr)
+        self.assertFalse(self.child.exists())
+        shutil.rmtree(self.parent)
+        self.run_parent(rigid[:2])
+        self.run_child(overrides=['fiber.model="chain"', "time.end=0.6"])
+        self.verify(self.child)
+
     def test_with_the_last_good_state_of_a_run_that_failed(self):
         self.run_parent(["time.method=euler", "time.step=2e-3", "fiber.spring_stiffness=1.0"], code=program.NUMERICAL)
         last = run_files.read_checkpoint(run_files.checkpoints(self.parent)[-1])

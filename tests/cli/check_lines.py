@@ -115,10 +115,23 @@ def check_rigid(position, run):
     check({float(row["energy [force*length]"]) for row in rows} == {0.0}, "a rigid fiber stores energy")
 
 
+def check_threads(program, configs, folder):
+    """Many rigid fibers, whose forces are found by iterations: the same bits with one thread and with two."""
+    certificates = []
+    for threads in (1, 2):
+        run = folder / f"threads_{threads}"
+        shutil.rmtree(run, ignore_errors=True)
+        skein(program, "run", configs / "random_suspension.toml", "-o", run, "-q", "--threads", threads,
+              "--set", 'fiber.model="rigid"', "--set", "placement.count=12", "--set", "time.end=0.2")
+        certificates.append(certificate(program, run))
+    check(certificates[0] == certificates[1], "another number of threads computes otherwise")
+
+
 def main():
     program, configs, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
     for line in LINES:
         check_line(program, line, configs / line.scene, folder / line.model)
+    check_threads(program, configs, folder)
 
 
 if __name__ == "__main__":

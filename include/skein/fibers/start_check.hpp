@@ -4,6 +4,7 @@
 #include <skein/scene/scene_file.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace skein {
@@ -20,6 +21,12 @@ double measure_start_strain(const Fiber& fiber, const std::vector<SectionPose>& 
 /// True where distant sections of a fiber (see Fiber::distant_sections) are nearer at the start than two radii.
 /// @param poses  of make_section_poses, which go on and on along the fiber's direction
 bool touches_itself(const Fiber& fiber, const std::vector<SectionPose>& poses);
+
+/// How far the nodes of a fiber on a line are from those of a straight one of its length that fits them best, at most.
+/// Length
+/// @param fiber     of one node a section
+/// @param position  [fiber.n_nodes()], length: this fiber's nodes only
+double measure_bend(const Fiber& fiber, std::span<const Vec3> position);
 
 /// Starts that cannot be: bends of more half waves than the sections resolve, or so strong that springs are strained by
 /// more than largest_sound_strain, that the fiber touches itself or that its length does not suffice. Says what is

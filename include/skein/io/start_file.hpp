@@ -23,7 +23,8 @@ std::string checksum_of_start(std::string_view bytes);
 
 /// @param file  for messages
 /// @returns [n_nodes], length
-/// @throws Error(damaged_data) if these are not the bytes that the scene names, or do not fit its nodes and start
+/// @throws Error(damaged_data) if these are not the bytes that the scene names, or do not fit its nodes and start;
+///         Error(scene_error) if a fiber is bent that is rigid in the scene
 std::vector<Vec3> decode_start(const std::string& bytes, const std::filesystem::path& file, const SceneConfig& scene);
 
 /// The same of a file. @throws Error(missing_input), Error(io_error), too, if it is not there or cannot be read
