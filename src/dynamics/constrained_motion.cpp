@@ -86,6 +86,14 @@ void ConstrainedMotion::solve(const ConstVectors& places, const Vectors& force, 
   bodies.make_rigid(poses_, velocity);
 }
 
+void ConstrainedMotion::compute_forces(const double time, const ConstVectors& places, const Vectors& force) {
+  physics_.compute_forces(time, places, force);
+  if (physics_.rigid_bodies.is_empty()) return;
+  const Vectors velocity("skein::ConstrainedMotion::velocity", places.extent(0));
+  physics_.flow->add_velocity(time, places, velocity);
+  solve(places, force, velocity);
+}
+
 void ConstrainedMotion::add_interaction(const ConstVectors& places, const double tolerance, const Vectors& force,
                                         const Vectors& velocity) {
   const ExecSpace space;

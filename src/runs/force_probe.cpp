@@ -8,19 +8,19 @@
 namespace skein {
 
 std::vector<ForceRecord> probe_forces(const Physics& physics, const Frame& frame) {
+  const auto position = to_device("skein::probe_forces::position", frame.position);
   const std::size_t n = frame.position.size();
-  const Vectors position("skein::probe_forces::position", n), force("skein::probe_forces::force", n),
-      constraint("skein::probe_forces::constraint", n), induced("skein::probe_forces::induced", n),
-      background("skein::probe_forces::background", n), velocity("skein::probe_forces::velocity", n);
+  const Vectors force("skein::probe_forces::force", n), constraint("skein::probe_forces::constraint", n),
+      induced("skein::probe_forces::induced", n), background("skein::probe_forces::background", n),
+      velocity("skein::probe_forces::velocity", n);
   ConstrainedMotion motion(physics);
-  motion.compute_places(to_device("skein::probe_forces::frame", frame.position), position);
-  physics.flow->add_velocity(frame.time, position, background);
+  motion.compute_places(position, position);
+  motion.compute_forces(frame.time, position, force);
   physics.compute_forces(frame.time, position, constraint);
-  Kokkos::deep_copy(ExecSpace(), force, constraint);
-  Kokkos::deep_copy(ExecSpace(), velocity, background);
-  motion.solve(position, force, velocity);
   combine<ExecSpace>(ExecSpace(), constraint, {1.0, force}, {-1.0, constraint});
-  combine<ExecSpace>(ExecSpace(), induced, {1.0, velocity}, {-1.0, background});
+  physics.mobility->add_velocity({position, force, physics.blob}, position, induced);
+  physics.flow->add_velocity(frame.time, position, background);
+  combine<ExecSpace>(ExecSpace(), velocity, {1.0, induced}, {1.0, background});
   const std::vector<Fiber>& fibers = physics.fibers;
   const auto energy = physics.compute_energies(frame.time, position);
   std::vector<SymmetricTensor> moments(fibers.size());

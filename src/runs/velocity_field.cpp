@@ -35,16 +35,9 @@ VelocityField compute_velocity_field(const SceneConfig& scene, const double time
   const Vectors position = to_device("skein::velocity_field::position", nodes);
   const Vectors target = to_device("skein::velocity_field::target", points);
   const Vectors force("skein::velocity_field::force", nodes.size());
-  if (physics.rigid_bodies.is_empty()) {
-    physics.compute_forces(time, position, force);
-  } else {
-    const Vectors of_nodes("skein::velocity_field::of_nodes", nodes.size());
-    ConstrainedMotion motion(physics);
-    motion.compute_places(position, position);
-    physics.flow->add_velocity(time, position, of_nodes);
-    physics.compute_forces(time, position, force);
-    motion.solve(position, force, of_nodes);
-  }
+  ConstrainedMotion motion(physics);
+  motion.compute_places(position, position);
+  motion.compute_forces(time, position, force);
 
   VelocityField field;
   const Vectors velocity("skein::velocity_field::velocity", points.size());

@@ -28,6 +28,9 @@ class ConstrainedMotion {
   /// @throws Error(numerical) where the forces are not found
   void solve(const ConstVectors& places, const Vectors& force, const Vectors& velocity);
 
+  /// Overwrites force with that of the nodes on the fluid, in the scene's flow and under its forces.
+  void compute_forces(double time, const ConstVectors& places, const Vectors& force);
+
  private:
   void add_interaction(const ConstVectors& places, double tolerance, const Vectors& force, const Vectors& velocity);
 
