@@ -134,7 +134,7 @@ class ShearCouple final : public Force {
 
   double time_scale() const override { return flow_.time_scale(); }
   void add_course(TimeCourse& course) const override { flow_.add_course(course); }
-  std::string describe() const override { return "the couple of the flow's shear on chains"; }
+  std::string describe() const override { return "the couple of the flow's shear on chains and rigid fibers"; }
 
  private:
   SceneFlow flow_;

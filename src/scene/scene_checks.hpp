@@ -12,6 +12,10 @@ namespace skein {
 void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                  std::vector<Problem>& warnings);
 
+/// The part of check_scene that is about [fiber].
+void check_fibers(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
+                  std::vector<Problem>& warnings);
+
 /// The part of check_scene that is about forces: [repulsion], [gravity], [[tether]], [[torque]].
 void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                   std::vector<Problem>& warnings);

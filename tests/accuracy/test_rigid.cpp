@@ -8,7 +8,7 @@
 
 #include "runs/force_probe.hpp"
 #include "runs/observables.hpp"
-#include "tests/accuracy/dense_operators.hpp"
+#include "tests/accuracy/dense_rigid_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -61,75 +61,6 @@ struct Moment {
   Physics physics;
   FiberDynamics dynamics;
   std::vector<Vec3> position;
-};
-
-Eigen::Vector3d to_eigen(const Vec3 v) { return {v.x, v.y, v.z}; }
-
-/// All fibers at once: M g - K V = -flow on the nodes of rigid ones, whose sums and torques are those of the forces,
-/// and velocities of the others follow. Nothing of the library's but the scene's forces, blobs and places.
-struct DenseSolution {
-  std::vector<Vec3> velocity, force;
-
-  explicit DenseSolution(const Moment& moment, const std::function<Eigen::Vector3d(const Eigen::Vector3d&)>& flow) {
-    const std::vector<Fiber>& fibers = moment.physics.fibers;
-    const int n = static_cast<int>(moment.position.size());
-    const std::vector<double> blob = make_blobs(fibers);
-    const std::vector<Vec3> given = moment.compute_forces();
-    Eigen::MatrixXd mobility(3 * n, 3 * n);
-    Eigen::VectorXd f(3 * n), background(3 * n);
-    for (int i = 0; i < n; ++i) {
-      const Eigen::Vector3d x = to_eigen(moment.position[i]);
-      for (int j = 0; j < n; ++j)
-        mobility.block<3, 3>(3 * i, 3 * j) =
-            dense::mobility_block(x - to_eigen(moment.position[j]), blob[j], moment.physics.viscosity);
-      f.segment<3>(3 * i) = to_eigen(given[i]);
-      background.segment<3>(3 * i) = flow(x);
-    }
-    std::vector<int> rows;  // of rigid fibers' nodes
-    int n_bodies = 0;
-    for (const Fiber& fiber : fibers) {
-      if (!fiber.config.is_rigid()) continue;
-      ++n_bodies;
-      for (int row = 3 * fiber.first_node; row < 3 * (fiber.first_node + fiber.n_nodes()); ++row) rows.push_back(row);
-    }
-    const int m = static_cast<int>(rows.size());
-    Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(m, 5 * n_bodies);
-    int row = 0, column = 0;
-    for (const Fiber& fiber : fibers) {
-      if (!fiber.config.is_rigid()) continue;
-      const Eigen::Vector3d axis = to_eigen(fiber.config.direction).normalized(),
-                            center = to_eigen(fiber.config.center);
-      const Eigen::Vector3d first = axis.unitOrthogonal(), second = axis.cross(first);
-      for (int node = fiber.first_node; node < fiber.first_node + fiber.n_nodes(); ++node, row += 3) {
-        const Eigen::Vector3d arm = to_eigen(moment.position[node]) - center;
-        motions.block<3, 3>(row, column).setIdentity();
-        motions.block<3, 1>(row, column + 3) = first.cross(arm);
-        motions.block<3, 1>(row, column + 4) = second.cross(arm);
-      }
-      column += 5;
-    }
-    Eigen::VectorXd others = f;  // of nodes that are of no rigid fiber
-    for (const int r : rows) others[r] = 0.0;
-    const Eigen::VectorXd known = background + mobility * others;
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(m + 5 * n_bodies, m + 5 * n_bodies);
-    Eigen::VectorXd right(m + 5 * n_bodies), loads(m);
-    for (int a = 0; a < m; ++a) {
-      for (int b = 0; b < m; ++b) system(a, b) = mobility(rows[a], rows[b]);
-      right[a] = -known[rows[a]];
-      loads[a] = f[rows[a]];
-    }
-    system.topRightCorner(m, 5 * n_bodies) = -motions;
-    system.bottomLeftCorner(5 * n_bodies, m) = motions.transpose();
-    right.tail(5 * n_bodies) = motions.transpose() * loads;
-    const Eigen::VectorXd solution = system.partialPivLu().solve(right);
-    Eigen::VectorXd all = others;
-    for (int a = 0; a < m; ++a) all[rows[a]] = solution[a];
-    const Eigen::VectorXd u = background + mobility * all;
-    for (int i = 0; i < n; ++i) {
-      velocity.push_back({u[3 * i], u[3 * i + 1], u[3 * i + 2]});
-      force.push_back({all[3 * i], all[3 * i + 1], all[3 * i + 2]});
-    }
-  }
 };
 
 double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
@@ -229,7 +160,7 @@ SceneConfig make_crowd(const FiberModel third) {
 TEST(Rigid, FibersMoveAsOneDenseSolutionOfAllSays) {
   for (const FiberModel third : {FiberModel::rigid, FiberModel::chain}) {
     Moment moment(make_crowd(third));
-    const DenseSolution dense(moment, shear);
+    const dense::RigidMotion dense(moment.physics.fibers, moment.position, moment.compute_forces(), 1.3, shear);
     const std::vector<Vec3> velocity = moment.compute_velocity();
     EXPECT_LT(largest_difference(velocity, dense.velocity), 1e-9 * largest_of(dense.velocity));
     // Alone, they would move otherwise.
@@ -257,7 +188,7 @@ TEST(Rigid, ForcesOnTheFluidHaveTheSumAndTheTorqueOfTheScenes) {
   moment.physics.flow->add_velocity(0.0, position, velocity);
   ConstrainedMotion(moment.physics).solve(position, force, velocity);
   const std::vector<Vec3> found = to_host(ConstVectors(force));
-  const DenseSolution dense(moment, shear);
+  const dense::RigidMotion dense(moment.physics.fibers, moment.position, moment.compute_forces(), 1.3, shear);
   EXPECT_LT(largest_difference(found, dense.force), 1e-8 * largest_of(dense.force));
   for (const Fiber& fiber : moment.physics.fibers) {
     Vec3 sum, torque;
@@ -281,13 +212,14 @@ TEST(Rigid, StressIsTheFirstMomentOfItsForces) {
   scene.gravity.weight = 0.0;
   scene.tethers.clear();
   Moment moment(scene);
-  const DenseSolution dense(moment, shear);
+  const dense::RigidMotion dense(moment.physics.fibers, moment.position, moment.compute_forces(), 1.3, shear);
   const auto records =
       probe_forces(moment.physics, make_frame(moment.physics, 0, 0.0, to_device("x", moment.position)));
   for (const Fiber& fiber : moment.physics.fibers) {
     Eigen::Matrix3d first_moment = Eigen::Matrix3d::Zero();
     for (int i = fiber.first_node; i < fiber.first_node + fiber.n_nodes(); ++i)
-      first_moment -= to_eigen(moment.position[i] - fiber.config.center) * to_eigen(dense.force[i]).transpose();
+      first_moment -=
+          dense::to_eigen(moment.position[i] - fiber.config.center) * dense::to_eigen(dense.force[i]).transpose();
     Eigen::Matrix3d known = 0.5 * (first_moment + first_moment.transpose());
     known -= known.trace() / 3.0 * Eigen::Matrix3d::Identity();
     Eigen::Matrix3d found;
