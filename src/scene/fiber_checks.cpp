@@ -34,9 +34,10 @@ void check_rigid(const FiberConfig& fiber, const std::string& path, const SceneR
                fmt::format("{}.chain_nodes {}: a rigid fiber has {} at most", path, n_nodes, n_rigid_nodes_allowed));
   else
     reader.add(problems, path + ".sections",
-               fmt::format("{}.sections {}: a rigid fiber of this length would have {} nodes, and {} is the most: set "
-                           "chain_nodes, or take model = \"chain\"",
-                           path, fiber.sections, n_nodes, n_rigid_nodes_allowed));
+               fmt::format("{}.sections {}: a rigid fiber would have {} nodes, and {} is the most: {}, or take model = "
+                           "\"chain\"",
+                           path, fiber.sections, n_nodes, n_rigid_nodes_allowed,
+                           fiber.stands_for_tube() ? "set chain_nodes" : "take fewer"));
 }
 
 /// What a line and a tube cannot both be asked for.

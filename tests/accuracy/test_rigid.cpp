@@ -121,6 +121,28 @@ TEST(Rigid, IsTakenAlongByARotatingFluid) {
   }
 }
 
+// Elastic ones of a hundred and of four hundred times the paper's stiffness bend by that much less.
+TEST(Rigid, IsTheLimitOfStiffChains) {
+  const auto turn = [](const FiberModel model, const double stiffness) {
+    SceneConfig scene = make_scene({make_rigid(80, {1.0, 0.4, 0.3})});
+    scene.fibers[0].model = model;
+    scene.fibers[0].spring_stiffness *= stiffness;
+    scene.time.end = 2.0;
+    scene.time.tolerance = 1e-6;
+    Moment moment(scene);
+    const auto integrator = make_integrator(scene, moment.physics, moment.dynamics);
+    State state{0.0, 0, to_device("position", moment.position)};
+    while (state.time < scene.time.end) integrator->advance(state, scene.time.end);
+    return to_host(ConstVectors(state.position));
+  };
+  const std::vector<Vec3> rigid = turn(FiberModel::rigid, 1.0);
+  const double length = make_tube(make_rigid(80)).length();
+  const double stiff = largest_difference(turn(FiberModel::chain, 100.0), rigid),
+               stiffer = largest_difference(turn(FiberModel::chain, 400.0), rigid);
+  EXPECT_LT(stiff, 2e-3 * length);
+  EXPECT_NEAR(stiffer / stiff, 0.25, 0.05);
+}
+
 TEST(Rigid, FallsLikeTheTubeAndDrifts) {
   for (const int sections : {80, 301}) {
     const RigidTubeDrag tube = measure_rigid_tube(make_tube(make_rigid(sections)), 1.3);
