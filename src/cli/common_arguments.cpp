@@ -21,6 +21,12 @@ Argument make_threads_option(int* threads) {
       .within(1, most_host_threads);
 }
 
+Argument make_rung_option(std::string* rung, const std::string& meaning) {
+  return make_argument(
+      "--rung", rung, "RUNG",
+      meaning + ": rigid, chain, or nodes on a section; length, rigidity and what a fiber is to the fluid stay");
+}
+
 Argument make_walltime_option(double* seconds) {
   return make_argument("--max-walltime", Duration{seconds}, "T",
                        "Stop in time, with a checkpoint: seconds, 30m, 2h or 1:30:00");

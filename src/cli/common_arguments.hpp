@@ -16,6 +16,10 @@ Argument make_folder_argument(std::string* folder);
 /// --set KEY=VALUE
 Argument make_overrides_option(std::vector<std::string>* overrides);
 
+/// --rung RUNG, whose text read_rung reads.
+/// @param meaning  of what runs
+Argument make_rung_option(std::string* rung, const std::string& meaning);
+
 /// --threads N
 Argument make_threads_option(int* threads);
 

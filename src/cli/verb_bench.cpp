@@ -6,8 +6,10 @@
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "runs/placed_scene.hpp"
+#include "studies/contact_study.hpp"
 #include "studies/ladder.hpp"
 #include "studies/plan_check.hpp"
+#include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
@@ -25,8 +27,8 @@ namespace {
 struct BenchOptions {
   std::string what;
   std::filesystem::path folder = "bench";
-  LadderStudy ladder;
-  std::vector<double> rungs;  ///< empty: the study's own
+  std::vector<double> lengths;  ///< empty: the study's own
+  std::vector<double> rungs;    ///< empty: the study's own
   std::vector<std::string> scenes;
   std::vector<double> tolerances{0.1, 0.03, 0.01};
   int threads = 0;
@@ -44,7 +46,9 @@ void print_point(const LadderPoint& point) {
 }
 
 int bench_ladder(BenchOptions& options) {
-  if (!options.rungs.empty()) options.ladder.rungs.assign(options.rungs.begin(), options.rungs.end());
+  LadderStudy study;
+  if (!options.lengths.empty()) study.lengths = options.lengths;
+  if (!options.rungs.empty()) study.rungs.assign(options.rungs.begin(), options.rungs.end());
   const Runtime runtime(options.threads);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
@@ -53,7 +57,7 @@ int bench_ladder(BenchOptions& options) {
                 fmt::format("cannot make the folder '{}': {}", options.folder.string(), error.message()));
   print_result(fmt::format("# {}\n{:<8} {:>5} {:>7} {:>10} {:>9}   {}\n", describe_backend(), "length", "nodes",
                            "in all", "seconds", "evaluations", "errors against the first"));
-  write_ladder(options.folder / "ladder.csv", measure_ladder(options.ladder, print_point));
+  write_ladder(options.folder / "ladder.csv", measure_ladder(study, print_point));
   if (options.no_plots) return 0;
   return run_plot_script("plot_ladder.py", {std::filesystem::absolute(options.folder).string(), "--to-stderr"});
 }
@@ -79,7 +83,36 @@ int bench_plans(const BenchOptions& options) {
   return 0;
 }
 
-int bench(BenchOptions& options) { return options.what == "ladder" ? bench_ladder(options) : bench_plans(options); }
+std::string at_time(const double time) { return std::isnan(time) ? std::string("never") : fmt::format("{:.4g}", time); }
+
+void print_contact(const ContactPoint& point) {
+  print_result(fmt::format(
+      "{:<8.3g} {:>6} {:>6.2f} {:>10.2f} {:>10.3g} {:>9.4g} {:>9} {:>9.2g} {:>9} {:>7} {:>8.2g} % {:>8.3g} {}\n",
+      point.length, name_of_rung(point.rung), point.blob_over_spacing, point.stiffness_factor, point.repulsion,
+      point.contact.smallest_gap, at_time(point.contact.first_inside), point.contact.depth,
+      at_time(point.contact.first_crossing), point.n_crossings, 100.0 * point.shape_change, point.seconds,
+      point.failure.empty() ? "" : "broke off"));
+  std::fflush(stdout);
+}
+
+int bench_contact(BenchOptions& options) {
+  ContactStudy study;
+  if (!options.lengths.empty()) study.lengths = options.lengths;
+  if (!options.rungs.empty()) study.rungs.assign(options.rungs.begin(), options.rungs.end());
+  const Runtime runtime(options.threads);
+  print_result(fmt::format(
+      "# {}\n# gaps and depths in radii; blob in section distances; stiffness times the paper's; shape: what the "
+      "repulsion changes before contact\n{:<8} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>8}\n",
+      describe_backend(), "length", "rung", "blob", "stiffness", "repulsion", "gap", "inside", "depth", "crossed",
+      "times", "shape", "seconds"));
+  measure_contact(study, print_contact);
+  return 0;
+}
+
+int bench(BenchOptions& options) {
+  if (options.what == "contact") return bench_contact(options);
+  return options.what == "ladder" ? bench_ladder(options) : bench_plans(options);
+}
 
 }  // namespace
 
@@ -89,11 +122,12 @@ Verb make_bench_verb() {
           "Measure what this machine and this program can do",
           {make_argument("what", &options->what, "",
                          "ladder: chains and tubes of 4 to 24 nodes on a section, errors against cost; plan: what "
-                         "'skein plan' promises of scenes, and what comes of it")
-               .among({"ladder", "plan"})
+                         "'skein plan' promises of scenes, and what comes of it; contact: how deep long fibers are "
+                         "pressed into themselves")
+               .among({"ladder", "plan", "contact"})
                .require(),
            make_argument("-o,--output", &options->folder, "FOLDER", "Folder for table and picture"),
-           make_argument("--lengths", &options->ladder.lengths, "L,...", "Of the paper's fibers").within(0.02, 3.0),
+           make_argument("--lengths", &options->lengths, "L,...", "Of the paper's fibers").within(0.02, 3.0),
            make_argument("--rungs", &options->rungs, "N,...",
                          "Nodes on a section, 1 for the chain; the first is what the others are compared with")
                .within(1, 24),

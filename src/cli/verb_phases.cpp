@@ -7,18 +7,21 @@
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "studies/phases.hpp"
+#include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace skein {
 namespace {
 
 struct PhasesOptions {
   PhaseStudy study;
+  std::string rung;  ///< empty: the study's own
   int threads = 0;
   bool quiet = false, no_plots = false;
 };
@@ -29,7 +32,8 @@ void print_row(const PhaseResult& result) {
   std::fflush(stdout);
 }
 
-int draw_phases(const PhasesOptions& options) {
+int draw_phases(PhasesOptions& options) {
+  if (!options.rung.empty()) options.study.rung = read_rung(options.rung);
   const auto points = list_phase_points(options.study);
   const Runtime runtime(options.threads);
   print_result(fmt::format("{:<10} {:<10} {:<10} {}\n", "length", "mu_bar", "start", "regime"));
@@ -52,15 +56,13 @@ Verb make_phases_verb() {
            make_argument("--to", &study.to, "", "Longest length").within(0.01, 10.0),
            make_argument("--count", &study.count, "", "Number of lengths").within(1, 1000),
            make_argument("--end", &study.end, "", "Time to which each fiber is followed").within(0.1, 1e4),
-           make_argument("--nodes-per-section", &study.nodes_per_section, "",
-                         "Cheaper fibers of the same bending rigidity: 9 takes a thirtieth")
-               .within(3, paper_nodes_per_section),
+           make_rung_option(&options->rung, "Cheaper fibers that answer alike"),
            make_argument("--perturbation", &study.perturbation, "KEY=VALUE",
                          "Also each fiber with this key of its scene changed; may be repeated"),
            make_threads_option(&options->threads), make_walltime_option(&study.max_walltime),
            make_flag("--no-plots", &options->no_plots, "Draw nothing"), make_quiet_flag(&options->quiet)},
           "Examples:\n"
-          "  skein phases --nodes-per-section 9 -q\n"
+          "  skein phases --rung 6 -q\n"
           "  skein phases -o rolled --from 0.15 --to 0.25 --count 11 --perturbation fiber.roll=5.0\n"
           "The fibers are those of LaGrone, Cortez, Yan, Fauci 2019, straight along the flow at first, "
           "and once more with a\n"

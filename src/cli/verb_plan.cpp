@@ -60,28 +60,29 @@ int plan_scene(PlanOptions& options) {
 
 Verb make_plan_verb() {
   const auto options = std::make_shared<PlanOptions>();
-  return {"plan",
-          "Find the cheapest model that answers a scene's questions well enough",
-          {make_scene_argument(&options->scene),
-           make_argument("--tolerance", &options->request.tolerance, "",
-                         "Relative error of each answer; shapes: over the fiber's length")
-               .within(1e-4, 0.5),
-           make_argument("--for", &options->asked, "WORDS",
-                         "What is asked, between commas: shape, half_period, hook_radius, snaking_speed, curvature_max "
-                         "(default: the first four)"),
-           make_argument("--within", Duration{&options->request.max_seconds}, "T",
-                         "Wall time for pilot runs: seconds, 30m, 2h or 1:30:00"),
-           make_argument("-o,--output", &options->output, "FILE", "Write the planned scene"),
-           make_overrides_option(&options->overrides), make_threads_option(&options->threads),
-           make_flag("--json", &options->json, "The table as JSON"), make_quiet_flag(&options->quiet)},
-          "Examples:\n"
-          "  skein plan configs/lagrone2019_L0523.toml --tolerance 0.03\n"
-          "  skein plan configs/tumbling.toml --tolerance 0.01 --for half_period -o cheap.toml\n"
-          "Rigid fibers, chains and tubes of fewer nodes on a section keep length, radius and what they are to the\n"
-          "fluid, all but the first the rigidity, too. Each is run and compared with the next, until their difference\n"
-          "says that it is good enough.\n"
-          "The exit code is 0 if one is, 76 if none is.",
-          [options] { return plan_scene(*options); }};
+  return {
+      "plan",
+      "Find the cheapest model that answers a scene's questions well enough",
+      {make_scene_argument(&options->scene),
+       make_argument("--tolerance", &options->request.tolerance, "",
+                     "Relative error of each answer; shapes: over the fiber's length")
+           .within(1e-4, 0.5),
+       make_argument("--for", &options->asked, "WORDS",
+                     "What is asked, between commas: shape, half_period, hook_radius, snaking_speed, curvature_max, "
+                     "contact: how deep surfaces are pressed into each other, over the radius (default: the first "
+                     "four; in none may fibers pass through each other)"),
+       make_argument("--within", Duration{&options->request.max_seconds}, "T",
+                     "Wall time for pilot runs: seconds, 30m, 2h or 1:30:00"),
+       make_argument("-o,--output", &options->output, "FILE", "Write the planned scene"),
+       make_overrides_option(&options->overrides), make_threads_option(&options->threads),
+       make_flag("--json", &options->json, "The table as JSON"), make_quiet_flag(&options->quiet)},
+      "Examples:\n"
+      "  skein plan configs/lagrone2019_L0523.toml --tolerance 0.03\n"
+      "  skein plan configs/tumbling.toml --tolerance 0.01 --for half_period -o cheap.toml\n"
+      "Tubes of fewer nodes on a section keep length, radius, rigidity and what they are to the fluid. From four\n"
+      "nodes on, each is run and compared with the next, until their difference says that it is good enough.\n"
+      "The exit code is 0 if one is, 76 if none is.",
+      [options] { return plan_scene(*options); }};
 }
 
 }  // namespace skein

@@ -7,6 +7,7 @@
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "studies/reproduction.hpp"
+#include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,7 @@ namespace skein {
 namespace {
 
 struct ReproduceOptions {
-  std::string paper, figure;
+  std::string paper, figure, rung;
   Reproduction request;
   int threads = 0;
   bool json = false, quiet = false, no_plots = false;
@@ -29,6 +30,7 @@ struct ReproduceOptions {
 
 ReproductionResult reproduce_asked(const ReproduceOptions& options) {
   Reproduction request = options.request;
+  if (!options.rung.empty()) request.rung = read_rung(options.rung);
   for (const PaperFigure& figure : list_paper_figures())
     if (options.figure == figure.name) request.figures = {figure.figure};
   const Runtime runtime(options.threads);
@@ -36,9 +38,9 @@ ReproductionResult reproduce_asked(const ReproduceOptions& options) {
   return reproduce_figures(request, listener);
 }
 
-int draw(const Reproduction& request) {
-  std::vector<std::string> arguments{std::filesystem::absolute(request.folder).string()};
-  if (request.nodes_per_section != 0) arguments.push_back(fmt::format("--nodes={}", request.nodes_per_section));
+int draw(const ReproduceOptions& options) {
+  std::vector<std::string> arguments{std::filesystem::absolute(options.request.folder).string()};
+  if (!options.rung.empty()) arguments.push_back("--rung=" + options.rung);
   // The paths of the pictures are messages here: stdout holds the table alone.
   arguments.push_back("--to-stderr");
   return run_plot_script("plot_paper.py", arguments);
@@ -49,7 +51,7 @@ int reproduce(const ReproduceOptions& options) {
   print_result(options.json ? describe_rows_as_json(result.rows) : describe_rows(result.rows));
   std::fflush(stdout);
   if (!options.no_plots)
-    if (const int failure = draw(options.request); failure != 0) return failure;
+    if (const int failure = draw(options); failure != 0) return failure;
   if (result.code == ExitCode::stopped) return static_cast<int>(result.code);
   return static_cast<int>(worst(result.rows) == Verdict::differs ? ExitCode::numerical : ExitCode::done);
 }
@@ -85,11 +87,7 @@ Verb make_reproduce_verb() {
            make_argument("figure", &options->figure, "", "Which figure; without: " + list_quick_names())
                .among(list_names()),
            make_argument("-o,--output", &request.folder, "FOLDER", "Folder for runs, pictures and the table"),
-           make_argument(
-               "--nodes-per-section", &request.nodes_per_section, "",
-               "Of all runs, the paper has 18; without: 18, 9 for L = 0.931, 6 for 2.28. The bending rigidity and what "
-               "the fiber is to the fluid stay: 6 takes a twentieth, half periods change by 1 %")
-               .within(3, paper_nodes_per_section),
+           make_rung_option(&options->rung, "Of all runs, the paper has 18; without: 18, 9 for L = 0.931, 6 for 2.28"),
            make_threads_option(&options->threads), make_walltime_option(&request.max_walltime),
            make_flag("--json", &options->json, "The table as JSON"),
            make_flag("--no-runs", &request.only_compare, "Compare what is there"),
@@ -97,7 +95,7 @@ Verb make_reproduce_verb() {
           "Figures of LaGrone, Cortez, Yan, Fauci 2019:\n" + describe_figures() +
               "Examples:\n"
               "  skein reproduce lagrone2019\n"
-              "  skein reproduce lagrone2019 --nodes-per-section 9 -o quick\n"
+              "  skein reproduce lagrone2019 --rung 6 -o quick\n"
               "  skein reproduce lagrone2019 figure5 --max-walltime 2h\n"
               "Runs that are done are not run again, unfinished ones go on. "
               "The exit code is 0, 75 if a run was stopped,\n"

@@ -3,6 +3,8 @@
 #include <skein/analysis/centreline.hpp>
 #include <skein/core/error.hpp>
 
+#include "studies/contact_record.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -77,6 +79,7 @@ std::vector<double> list_values(const FiberSummary& summary, const Question ques
     case Question::curvature_max:
       return {summary.curvature_max};
     case Question::shape:
+    case Question::contact:
       break;
   }
   return {};
@@ -85,8 +88,8 @@ std::vector<double> list_values(const FiberSummary& summary, const Question ques
 }  // namespace
 
 const std::vector<Question>& list_questions() {
-  static const std::vector<Question> all{Question::shape, Question::half_period, Question::hook_radius,
-                                         Question::snaking_speed, Question::curvature_max};
+  static const std::vector<Question> all{Question::shape,         Question::half_period,   Question::hook_radius,
+                                         Question::snaking_speed, Question::curvature_max, Question::contact};
   return all;
 }
 
@@ -101,9 +104,11 @@ const char* name_of(const Question question) {
     case Question::snaking_speed:
       return "snaking_speed";
     case Question::curvature_max:
+      return "curvature_max";
+    case Question::contact:
       break;
   }
-  return "curvature_max";
+  return "contact";
 }
 
 Question find_question(const std::string& name) {
@@ -119,6 +124,11 @@ Question find_question(const std::string& name) {
 std::vector<AnswerError> compare_answers(const Pilot& run, const Pilot& better, const std::vector<Question>& asked) {
   std::vector<AnswerError> errors;
   for (const Question question : asked) {
+    if (question == Question::contact) {
+      const ContactRecord contact = record_contact(run.analysis);
+      errors.push_back({question, contact.has_crossed() ? no_answer : contact.depth});
+      continue;
+    }
     std::optional<double> largest;
     for (std::size_t f = 0; f < better.analysis.fibers.size(); ++f) {
       if (question == Question::shape) {

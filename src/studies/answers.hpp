@@ -15,6 +15,7 @@ enum class Question {
   hook_radius,    ///< relative
   snaking_speed,  ///< relative
   curvature_max,  ///< over the whole run, relative
+  contact,        ///< how deep surfaces are pressed into each other, over the radius: of the run alone
 };
 const std::vector<Question>& list_questions();
 const char* name_of(Question question);
@@ -24,7 +25,7 @@ Question find_question(const std::string& name);
 /// How far one run's answer is from a better one's.
 struct AnswerError {
   Question question;
-  double error = 0.0;  ///< infinite where only one of the runs has an answer
+  double error = 0.0;  ///< infinite where only one of the runs has an answer, and where fibers have crossed
 };
 
 /// Of the worst fiber each, over the time that both runs reached; questions that neither run answers are left out.

@@ -1,6 +1,6 @@
 #include "studies/ladder_table.hpp"
 
-#include "studies/rung.hpp"
+#include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,9 @@
 namespace skein {
 namespace {
 
-std::string name(const int rung) { return rung == 0 ? "no rung" : name_rung(rung); }
+constexpr int no_rung = -1;
+
+std::string name(const int rung) { return rung == no_rung ? "no rung" : describe_rung(rung); }
 
 }  // namespace
 
@@ -32,7 +34,7 @@ double find_ladder_error(const int nodes_per_section) {
 int find_ladder_rung(const double tolerance) {
   for (const LadderRow& row : list_ladder())
     if (row.error <= tolerance) return row.nodes_per_section;
-  return 0;
+  return no_rung;
 }
 
 std::string describe_ladder() {

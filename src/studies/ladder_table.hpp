@@ -17,7 +17,7 @@ const std::vector<LadderRow>& list_ladder();
 /// rigid fibers, below them: all depends on what bends the fibers of a scene.
 double find_ladder_error(int nodes_per_section);
 
-/// The fewest nodes on a section that are within a tolerance by that table; 0 where none are.
+/// The fewest nodes on a section that are within a tolerance by that table; -1 where none are.
 int find_ladder_rung(double tolerance);
 
 /// Which rungs would do for which tolerance, a line.

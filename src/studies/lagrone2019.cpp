@@ -235,9 +235,8 @@ std::vector<AcceptanceRow> compare_figure8(const PaperRuns& /*runs*/, const std:
 
 }  // namespace
 
-SceneConfig make_run_scene(const PaperFiber& fiber, const int nodes_per_section) {
-  SceneConfig scene = make_rung_scene(make_paper_scene(fiber.sections, fiber.end),
-                                      nodes_per_section == 0 ? fiber.nodes_per_section : nodes_per_section);
+SceneConfig make_run_scene(const PaperFiber& fiber, const int rung) {
+  SceneConfig scene = make_rung_scene(make_paper_scene(fiber.sections, fiber.end), rung);
   scene.fibers[0].start_noise = fiber.start_noise;
   if (fiber.keeps_plane) {
     // Direct sums in double keep the scene's mirror and half turn to rounding. The fast multipole method breaks both by

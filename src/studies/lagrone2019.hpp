@@ -20,17 +20,17 @@ enum class Figure { table1, figure2, figure3, figure4, figure5, figure6, figure7
 struct PaperFiber {
   const char* name;  ///< of its run's folder
   int sections;
-  double end;                                       ///< time to which its figures go
-  double elasto_viscous_number;                     ///< as printed
-  std::vector<Figure> figures;                      ///< that need its run
-  int nodes_per_section = paper_nodes_per_section;  ///< of its run, unless others are asked for
-  bool keeps_plane = false;                         ///< as long as nothing but rounding brings it out
-  double start_noise = 0.0;                         ///< of its run, over the length: what is to bring it out
+  double end;                          ///< time to which its figures go
+  double elasto_viscous_number;        ///< as printed
+  std::vector<Figure> figures;         ///< that need its run
+  int rung = paper_nodes_per_section;  ///< of its run, unless others are asked for
+  bool keeps_plane = false;            ///< as long as nothing but rounding brings it out
+  double start_noise = 0.0;            ///< of its run, over the length: what is to bring it out
 };
 const std::vector<PaperFiber>& list_paper_fibers();
 
-/// What is run for a fiber. @param nodes_per_section  0: the fiber's own
-SceneConfig make_run_scene(const PaperFiber& fiber, int nodes_per_section);
+/// What is run for a fiber.
+SceneConfig make_run_scene(const PaperFiber& fiber, int rung);
 
 /// Analyses by the runs' names; rows of runs that are not there, or not yet far enough, are not reached.
 using PaperRuns = std::map<std::string, RunAnalysis>;

@@ -7,6 +7,7 @@
 
 #include "runs/run_to_end.hpp"
 #include "studies/rung.hpp"
+#include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
@@ -65,10 +66,10 @@ std::vector<PhasePoint> list_phase_points(const PhaseStudy& study) {
       const double length =
           study.count == 1 ? study.from : study.from + (study.to - study.from) * i / (study.count - 1);
       const int sections = std::max(2, static_cast<int>(std::lround(length / spacing)));
-      SceneConfig scene = make_rung_scene(make_paper_scene(sections, study.end), study.nodes_per_section);
+      SceneConfig scene = make_rung_scene(make_paper_scene(sections, study.end), study.rung);
       if (is_perturbed) scene = perturb(scene, study.perturbation);
       points.push_back(
-          {fmt::format("{}_{:04}_{}", is_perturbed ? "perturbed" : "straight", sections, study.nodes_per_section),
+          {fmt::format("{}_{:04}_{}", is_perturbed ? "perturbed" : "straight", sections, name_of_rung(study.rung)),
            is_perturbed, scene});
     }
   }

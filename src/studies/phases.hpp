@@ -17,12 +17,12 @@ namespace skein {
 
 /// The phase diagram: which regimes fibers of LaGrone, Cortez, Yan, Fauci 2019 go through in shear, over their length.
 struct PhaseStudy {
-  std::filesystem::path folder = "phases";          ///< of the runs and of phases.csv
-  double from = 0.08, to = 0.6;                     ///< lengths of the shortest and of the longest fiber
-  double end = 30.0;                                ///< time to which each is followed
-  int count = 20;                                   ///< lengths, evenly apart
-  int nodes_per_section = paper_nodes_per_section;  ///< fewer: see fit_rung
-  std::vector<std::string> perturbation;  ///< "key=value" of the scene; with any, each fiber is also run with them
+  std::filesystem::path folder = "phases";  ///< of the runs and of phases.csv
+  double from = 0.08, to = 0.6;             ///< lengths of the shortest and of the longest fiber
+  double end = 30.0;                        ///< time to which each is followed
+  int count = 20;                           ///< lengths, evenly apart
+  int rung = paper_nodes_per_section;       ///< another: see make_rung_scene
+  std::vector<std::string> perturbation;    ///< "key=value" of the scene; with any, each fiber is also run with them
   double max_walltime = std::numeric_limits<double>::infinity();  ///< seconds since the program began
 };
 

@@ -3,6 +3,7 @@
 #include <skein/scene/scene_config.hpp>
 
 #include "studies/answers.hpp"
+#include "studies/contact_record.hpp"
 
 #include <functional>
 #include <string>
@@ -19,13 +20,15 @@ struct PlanRequest {
 
 /// One way to run the scene.
 struct Candidate {
-  int nodes_per_section = 0;  ///< or a rung below all tubes, see rung.hpp
+  int nodes_per_section = 0;
   int n_nodes = 0;
   SceneConfig scene;               ///< what is run
   double error = 0.0;              ///< predicted; not a number where nothing is known
   double seconds = 0.0;            ///< predicted wall time
   std::string verdict;             ///< why it is taken, or is not
-  std::vector<AnswerError> found;  ///< against the next rung, where pilots ran
+  std::vector<AnswerError> found;  ///< against the next rung or the finest, where pilots ran
+  bool is_against_finest = false;
+  ContactRecord contact;  ///< of its pilot, where one ran
 };
 
 /// The cheapest way that is good enough.
@@ -39,16 +42,19 @@ struct Plan {
   double seconds = 0.0;  ///< that planning took
   std::string variants;  ///< sums and methods that proved faster than the scene's, in words; empty: none
   std::string reason;    ///< in one or two sentences
-  std::string contact;   ///< what is known of surfaces that touch; empty: nothing touches
 };
 
-/// Finds it by pilot runs of the scene, from rigid fibers on: each is compared with the one above, whose own
-/// error is that of the table of convergence (ladder_table.hpp), between half of the difference and one and a half of
-/// it. Steps are as long as a quarter of the tolerance lets them be, found on the lowest rung that bends. Needs Kokkos.
+/// Finds it by pilot runs of the scene, from the coarsest rung on. Each is compared with the one above; one that may do
+/// is taken where the error of the one above, by the table of convergence (ladder_table.hpp), fits in besides, or else
+/// set against the finest tube, for a quarter of the pilots' time at most. Steps are as long as a quarter of the
+/// tolerance lets them be, found on the coarsest rung. Needs Kokkos.
 /// @param scene  its fibers are as written
 /// @param say    called with a line before each pilot
 Plan make_plan(const SceneConfig& scene, const PlanRequest& request,
                const std::function<void(const std::string&)>& say);
+
+/// Why this one, or none; the plan is made but for that.
+std::string explain_choice(const Plan& plan, const PlanRequest& request);
 
 /// A table of all candidates and the reason for the choice.
 std::string describe_plan(const Plan& plan, const PlanRequest& request);

@@ -4,13 +4,13 @@
 
 #include "studies/ladder_table.hpp"
 #include "studies/rung.hpp"
+#include "studies/rung_name.hpp"
 
 #include <limits>
 
 namespace skein {
 namespace {
 
-constexpr int finest_rung = 24;
 constexpr int n_checked_frames = 400;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 

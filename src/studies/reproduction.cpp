@@ -3,8 +3,7 @@
 #include <skein/io/folder_listing.hpp>
 
 #include "runs/run_to_end.hpp"
-
-#include <fmt/format.h>
+#include "studies/rung_name.hpp"
 
 #include <algorithm>
 
@@ -22,14 +21,14 @@ bool is_needed(const PaperFiber& fiber, const std::vector<Figure>& figures) {
 }
 
 fs::path folder_of(const PaperFiber& fiber, const Reproduction& request) {
-  const std::string suffix = request.nodes_per_section == 0 ? "" : fmt::format("_{}", request.nodes_per_section);
+  const std::string suffix = request.rung ? "_" + name_of_rung(*request.rung) : "";
   return request.folder / (fiber.name + suffix);
 }
 
 ExitCode run_needed(const Reproduction& request, RunListener& listener) {
   for (const PaperFiber& fiber : list_paper_fibers()) {
     if (request.only_compare || !is_needed(fiber, request.figures)) continue;
-    const SceneConfig scene = make_run_scene(fiber, request.nodes_per_section);
+    const SceneConfig scene = make_run_scene(fiber, request.rung.value_or(fiber.rung));
     if (run_to_end(scene, folder_of(fiber, request), request.max_walltime, listener) == ExitCode::stopped)
       return ExitCode::stopped;
   }

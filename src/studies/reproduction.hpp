@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace skein {
@@ -18,7 +19,7 @@ const std::vector<Figure>& list_quick_figures();
 struct Reproduction {
   std::filesystem::path folder = "lagrone2019";  ///< of runs and tables
   std::vector<Figure> figures = list_quick_figures();
-  int nodes_per_section = 0;                                      ///< 0: each fiber's own
+  std::optional<int> rung;                                        ///< of all runs; none: each fiber's own
   double max_walltime = std::numeric_limits<double>::infinity();  ///< seconds since the program began
   bool only_compare = false;                                      ///< what is there; nothing is run or timed
 };

@@ -8,6 +8,8 @@
 #include <skein/physics/rigid_tube.hpp>
 #include <skein/scene/fiber_spacing.hpp>
 
+#include "studies/rung_name.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,11 +99,6 @@ int find_rung(const FiberConfig& fiber) {
   return fiber.is_line() ? chain_rung : fiber.nodes_per_section;
 }
 
-std::string name_rung(const int nodes_per_section) {
-  if (nodes_per_section == rigid_rung) return "rigid fibers";
-  return nodes_per_section == chain_rung ? "a chain" : fmt::format("{} nodes on a section", nodes_per_section);
-}
-
 std::string find_bar_to_rigid(const SceneConfig& scene) {
   const auto has = [&](const auto& property) {
     return std::any_of(scene.fibers.begin(), scene.fibers.end(), property);
@@ -126,23 +123,26 @@ RungFit fit_rung(const FiberConfig& fiber, const int nodes_per_section) {
     coarse.reach_around = std::max(
         1, static_cast<int>(std::lround(1.0 * fiber.reach_around * nodes_per_section / fiber.nodes_per_section)));
   coarse = cut_to(coarse, fine.length());
-  // Rigidity is in proportion to the springs' stiffness.
-  coarse.spring_stiffness *=
-      measure_beam_stiffness(fine).infinite_bending / measure_beam_stiffness(make_fibers({coarse})[0]).infinite_bending;
 
   const double length = std::min(fine.length(), most_radii * fiber.radius);
-  const double aspect_ratio = measure(cut_to(fiber, length)).effective_aspect_ratio();
+  const RigidTubeDrag drag = measure(cut_to(fiber, length));
+  const double aspect_ratio = drag.effective_aspect_ratio();
   FiberConfig piece = cut_to(coarse, length);
   coarse.blob = piece.blob = find_blob(piece, aspect_ratio);
-  fit.aspect_ratio_error = measure(piece).effective_aspect_ratio() / aspect_ratio - 1.0;
+  const RigidTubeDrag found = measure(piece);
+  fit.aspect_ratio_error = found.effective_aspect_ratio() / aspect_ratio - 1.0;
+  fit.drag_ratio = found.turning / drag.turning;
+  // Rigidity is in proportion to the springs' stiffness.
+  coarse.spring_stiffness *= fit.drag_ratio * measure_beam_stiffness(fine).relaxed_bending /
+                             measure_beam_stiffness(make_fibers({coarse})[0]).relaxed_bending;
   return fit;
 }
 
-SceneConfig make_rung_scene(SceneConfig scene, const int nodes_per_section) {
-  if (nodes_per_section == rigid_rung) return make_line_scene(std::move(scene), FiberModel::rigid);
-  if (nodes_per_section == chain_rung) return make_line_scene(std::move(scene), FiberModel::chain);
+SceneConfig make_rung_scene(SceneConfig scene, const int rung) {
+  if (rung == rigid_rung) return make_line_scene(std::move(scene), FiberModel::rigid);
+  if (rung == chain_rung) return make_line_scene(std::move(scene), FiberModel::chain);
   std::vector<int> before;
-  FiberKinds rungs([&](const FiberConfig& fiber) { return fit_rung(fiber, nodes_per_section).fiber; });
+  FiberKinds rungs([&](const FiberConfig& fiber) { return fit_rung(fiber, rung).fiber; });
   for (FiberConfig& fiber : scene.fibers) {
     before.push_back(fiber.sections);
     fiber = rungs.find(fiber);

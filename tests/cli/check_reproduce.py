@@ -36,7 +36,7 @@ def check_table(program, folder):
 
 
 def check_figures(program, folder):
-    words = (program, "reproduce", "lagrone2019", "--nodes-per-section", 6, "-o", folder, "-q")
+    words = (program, "reproduce", "lagrone2019", "--rung", 6, "-o", folder, "-q")
     skein(*words, "--max-walltime", 1.5, "--no-plots", codes=(STOPPED,))
     first = (folder / "L0139_6/checkpoints").stat().st_mtime_ns
     rows = list(csv.DictReader(open(folder / "comparison.csv", newline="")))
@@ -58,7 +58,7 @@ def check_figures(program, folder):
 
 
 def check_phases(program, folder):
-    words = (program, "phases", "--from", 0.14, "--to", 0.2, "--count", 2, "--nodes-per-section", 6, "--end", 8, "-q",
+    words = (program, "phases", "--from", 0.14, "--to", 0.2, "--count", 2, "--rung", 6, "--end", 8, "-q",
              "-o", folder, "--perturbation", "fiber.roll=5.0")
     text = skein(*words).stdout
     regimes = [line.split()[-1] for line in text.splitlines()[1:]]

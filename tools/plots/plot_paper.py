@@ -221,7 +221,7 @@ FIGURES = {"figure2": draw_snapshots, "figure3": draw_curvature, "figure4": draw
 
 
 def draw_all(options):
-    suffix = "" if options.nodes is None else f"_{options.nodes}"
+    suffix = "" if options.rung is None else f"_{options.rung}"
     runs = open_runs(options.folder, suffix)
     figures = {**FIGURES, "figure8": lambda _: timings.draw(options.folder)}
     for name, draw in figures.items():
@@ -236,7 +236,7 @@ def draw_all(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, allow_abbrev=False)
     parser.add_argument("folder", help="of skein reproduce")
-    parser.add_argument("--nodes", type=int, help="nodes on a section, where the runs were asked for with them")
+    parser.add_argument("--rung", help="of the runs, where they were asked for with one")
     parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png")
     parser.add_argument("--to-stderr", action="store_true", help="the pictures' paths go to stderr")
     options = parser.parse_args()

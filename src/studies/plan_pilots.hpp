@@ -1,0 +1,61 @@
+#pragma once
+
+#include <skein/core/stopwatch.hpp>
+
+#include "studies/plan.hpp"
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// Pilot runs of one scene's candidates, in the time that there is for all of them.
+class PlanPilots {
+ public:
+  /// @param end      time to which the scene goes
+  /// @param request, say  must outlive the object
+  PlanPilots(double end, const PlanRequest& request, const std::function<void(const std::string&)>& say);
+
+  /// @param max_seconds  of wall time, besides what is left for all
+  /// @returns none where there is no time for it, or it did not get past a tenth of the scene's time
+  std::optional<Pilot> run(const SceneConfig& scene, const std::string& words,
+                           double max_seconds = std::numeric_limits<double>::infinity());
+
+  double seconds_left() const { return request_.max_seconds - seconds_since(start_); }
+  double seconds() const { return seconds_since(start_); }
+
+  /// The largest of the answers' differences, which contact is not among: it is judged by each rung alone.
+  double compare(const Pilot& run, const Pilot& better) const {
+    return find_largest_error(compare_answers(run, better, compared_));
+  }
+  const std::vector<Question>& compared() const { return compared_; }
+  bool asks_contact() const { return compared_.size() < request_.asked.size(); }
+
+  const PlanRequest& request() const { return request_; }
+
+ private:
+  double end_;
+  const PlanRequest& request_;
+  const std::function<void(const std::string&)>& say_;
+  WallClock::time_point start_ = WallClock::now();
+  std::vector<Question> compared_;
+};
+
+/// The longest steps whose error is a quarter of the tolerance, by one candidate.
+struct StepChoice {
+  double time_tolerance = 0.0;
+  double error = 0.0;          ///< that they cause
+  std::optional<Pilot> pilot;  ///< of the candidate with them; none where nothing was tried
+};
+StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const SceneConfig& scene);
+
+/// Of the chosen candidate: pairs in single precision and an implicit method, where the scene leaves the choice open.
+/// One that is no faster is given up in the time that the chosen one took.
+/// @param pilot  the chosen one's, whole
+/// @returns what proved faster, in words; empty: nothing
+std::string try_variants(PlanPilots& pilots, const SceneConfig& scene, const Pilot& pilot, Candidate& chosen);
+
+}  // namespace skein
