@@ -19,8 +19,6 @@
 namespace skein {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Climbs the ladder until a rung is good enough.
 class Planner {
  public:
@@ -97,7 +95,7 @@ class Planner {
     candidate.seconds = pilot.seconds * scene_.time.end / pilot.end();
     candidate.contact = record_contact(pilot.analysis);
     if (pilot.failure.empty() && !candidate.contact.has_crossed()) return true;
-    candidate.error = infinity;
+    candidate.error = std::numeric_limits<double>::infinity();
     candidate.verdict = pilot.failure.empty() ? describe_contact(candidate.contact) : "breaks off: " + pilot.failure;
     return false;
   }

@@ -20,7 +20,7 @@ struct PlanRequest {
 
 /// One way to run the scene.
 struct Candidate {
-  int nodes_per_section = 0;
+  int nodes_per_section = 0;  ///< or a rung below all tubes: see rung_name.hpp
   int n_nodes = 0;
   SceneConfig scene;               ///< what is run
   double error = 0.0;              ///< predicted; not a number where nothing is known
@@ -28,7 +28,10 @@ struct Candidate {
   std::string verdict;             ///< why it is taken, or is not
   std::vector<AnswerError> found;  ///< against the next rung or the finest, where pilots ran
   bool is_against_finest = false;
-  ContactRecord contact;  ///< of its pilot, where one ran
+  bool is_barred = false;  ///< it cannot stand for the scene's fibers
+  ContactRecord contact;   ///< of its pilot, where one ran
+
+  bool bends() const { return !is_barred && nodes_per_section > 0; }
 };
 
 /// The cheapest way that is good enough.
@@ -47,7 +50,8 @@ struct Plan {
 /// Finds it by pilot runs of the scene, from the coarsest rung on. Each is compared with the one above; one that may do
 /// is taken where the error of the one above, by the table of convergence (ladder_table.hpp), fits in besides, or else
 /// set against the finest tube, for a quarter of the pilots' time at most. Steps are as long as a quarter of the
-/// tolerance lets them be, found on the coarsest rung. Needs Kokkos.
+/// tolerance lets them be, found on the lowest rung that bends. Where a rung does and the one below does
+/// not, other numbers of nodes between them are tried. Needs Kokkos.
 /// @param scene  its fibers are as written
 /// @param say    called with a line before each pilot
 Plan make_plan(const SceneConfig& scene, const PlanRequest& request,

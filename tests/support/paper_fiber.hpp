@@ -16,7 +16,9 @@ namespace skein::test {
 /// One of the paper's fibers along x in its shear flow, ready to run.
 struct PaperFiber {
   explicit PaperFiber(const int sections, const double blob_ratio = 1.0)
-      : scene(make_scene(sections, blob_ratio)),
+      : PaperFiber(make_scene(sections, blob_ratio)) {}
+  explicit PaperFiber(const SceneConfig& asked)
+      : scene(asked),
         physics(make_direct_physics(scene)),
         dynamics(physics),
         state{0.0, 0, to_device("position", make_surface_nodes(physics.fibers))} {}
