@@ -119,19 +119,22 @@ void add_between(const HostSources& nodes, const IndexRange one, const IndexRang
 
 /// Each pair of nodes inside a run: between its halves, then inside each. Few nodes are summed one direction after the
 /// other.
+/// @param image  the run itself, or as many nodes that are its images under a matrix that is its own inverse: then each
+///               pair of a node and an image once, since that of the other node with the first one's image is its image
 template <class Real, Coordinates coordinates = Coordinates::exact>
-void add_within(const HostSources& nodes, const IndexRange run, const VectorView<HostSpace>& velocity) {
+void add_within(const HostSources& nodes, const IndexRange run, const IndexRange image,
+                const VectorView<HostSpace>& velocity) {
   if (run.count > undivided_nodes) {
-    const int half = math::ceil_div(run.count, 2 * tile_step) * tile_step;
-    const IndexRange first{run.first, half}, second{run.first + half, run.count - half};
-    add_within<Real, coordinates>(nodes, first, velocity);
-    add_between<Real, coordinates>(nodes, first, second, velocity);
-    add_within<Real, coordinates>(nodes, second, velocity);
+    const int half = math::ceil_div(run.count, 2 * tile_step) * tile_step, rest = run.count - half;
+    const IndexRange second{run.first + half, rest}, second_image{image.first + half, rest};
+    add_within<Real, coordinates>(nodes, {run.first, half}, {image.first, half}, velocity);
+    add_between<Real, coordinates>(nodes, {run.first, half}, second_image, velocity);
+    add_within<Real, coordinates>(nodes, second, second_image, velocity);
     return;
   }
   bool given = false;
   const auto whole_run = [&](IndexRange& sources) {
-    sources = run;
+    sources = image;
     return !std::exchange(given, true);
   };
   add_runs_to_targets<Real>(nodes, whole_run, nodes.position, run, velocity);

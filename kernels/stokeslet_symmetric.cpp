@@ -3,6 +3,7 @@
 #include "kernels/ordered_matches.hpp"
 #include "kernels/stokeslet_direct.hpp"
 #include "kernels/stokeslet_exchange.hpp"
+#include "kernels/tournament.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -24,15 +25,10 @@ IndexRange tile_run(const int tile, const int n_tiles, const int n_nodes) {
   return {edge(tile), edge(tile + 1) - edge(tile)};
 }
 
-/// The rounds by the circle method: the last tile stays, the others rotate. @param n_tiles  even
-std::vector<Match> make_tournament(const int n_tiles) {
+std::vector<Match> make_matches(const int n_tiles) {
   std::vector<Match> matches;
   for (int tile = 0; tile < n_tiles; ++tile) matches.push_back({tile, tile});
-  const int n_rotating = n_tiles - 1;
-  for (int round = 1; round < n_tiles; ++round)
-    for (int match = 0; match < n_tiles / 2; ++match)
-      matches.push_back({match == 0 ? n_rotating : (round + match) % n_rotating,
-                         match == 0 ? round % n_rotating : (round - match + n_rotating) % n_rotating});
+  for (const auto& [one, other] : list_tournament(n_tiles)) matches.push_back({one, other});
   count_turns(n_tiles, matches);
   return matches;
 }
@@ -42,10 +38,10 @@ void add_symmetric(const HostSpace& space, const HostSources& nodes, const Vecto
   const int n_nodes = nodes.position.extent_int(0);
   const int n_tiles = math::smaller(max_tiles, n_nodes / nodes_per_tile / 2 * 2);
   const auto run_of = [=](const int tile) { return tile_run(tile, n_tiles, n_nodes); };
-  play_in_order("skein::add_symmetric_stokeslet_velocity", space, n_tiles, make_tournament(n_tiles),
+  play_in_order("skein::add_symmetric_stokeslet_velocity", space, n_tiles, make_matches(n_tiles),
                 [&](const Match& match) {
                   if (match.one == match.other)
-                    add_within<Real>(nodes, run_of(match.one), velocity);
+                    add_within<Real>(nodes, run_of(match.one), run_of(match.one), velocity);
                   else
                     add_between<Real>(nodes, run_of(match.one), run_of(match.other), velocity);
                 });

@@ -62,7 +62,7 @@ void compute_near_velocities(const SortedNodes& nodes, const NearMatches& near, 
   play_in_order("skein::compute_near_velocities", HostSpace(), static_cast<int>(near.tiles.size()), near.matches,
                 [&](const Match& match) {
                   if (match.one == match.other)
-                    add_within<Near, Coordinates::rounded>(sources, run_of(match.one), velocity);
+                    add_within<Near, Coordinates::rounded>(sources, run_of(match.one), run_of(match.one), velocity);
                   else
                     add_between<Near, Coordinates::rounded>(sources, run_of(match.one), run_of(match.other), velocity);
                 });
