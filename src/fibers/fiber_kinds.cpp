@@ -3,9 +3,7 @@
 #include <algorithm>
 
 namespace skein {
-namespace {
 
-/// The fiber at the place of another, which starts as that one does.
 FiberConfig put_in_place_of(FiberConfig fiber, const FiberConfig& other) {
   fiber.center = other.center;
   fiber.direction = other.direction;
@@ -16,8 +14,6 @@ FiberConfig put_in_place_of(FiberConfig fiber, const FiberConfig& other) {
   fiber.start_noise = other.start_noise;
   return fiber;
 }
-
-}  // namespace
 
 FiberConfig FiberKinds::find(const FiberConfig& fiber) {
   const FiberConfig kind = put_in_place_of(fiber, FiberConfig{});

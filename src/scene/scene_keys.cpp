@@ -65,6 +65,20 @@ void visit_gravity(KeyVisitor& visitor, GravityConfig& gravity) {
   visitor.end_table();
 }
 
+void visit_symmetry(KeyVisitor& visitor, SymmetryConfig& symmetry) {
+  visitor.begin_table(
+      {"symmetry", false,
+       "What maps the scene onto itself: its fibers as they start, its flow and its forces. Velocities are then found "
+       "for a half of the nodes, or with both keys for a quarter, from these nodes and their images, in as much less "
+       "time, and the motion stays symmetric to the last bit: that a fiber keeps to its plane, or stays odd about its "
+       "middle, is then an assumption and no result. A scene without the symmetry is refused."});
+  visitor.choice({"mirror", "", {}, "normal of a plane of symmetry through the origin"}, words_of<SymmetryAxis>(),
+                 symmetry.mirror);
+  visitor.choice({"half_turn", "", {}, "axis through the origin about which a turn by 180 degrees changes nothing"},
+                 words_of<SymmetryAxis>(), symmetry.half_turn);
+  visitor.end_table();
+}
+
 void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics) {
   visitor.begin_table({"hydrodynamics", false, "How velocities follow from forces."});
   visitor.choice({"method", "", {}, "how the sum over nodes is made"}, words_of<SumMethod>(), hydrodynamics.method);
@@ -166,6 +180,7 @@ void visit_keys(KeyVisitor& visitor, SceneConfig& scene) {
   visit_placement(visitor, scene.placement);
   visit_repulsion(visitor, scene.repulsion);
   visit_gravity(visitor, scene.gravity);
+  visit_symmetry(visitor, scene.symmetry);
   visit_hydrodynamics(visitor, scene.hydrodynamics);
   visit_time(visitor, scene.time);
   visit_start(visitor, scene.start);

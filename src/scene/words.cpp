@@ -59,6 +59,15 @@ const Words<Orientation>& words_of<Orientation>() {
 }
 
 template <>
+const Words<SymmetryAxis>& words_of<SymmetryAxis>() {
+  static const Words<SymmetryAxis> words = {{"none", "no such symmetry", SymmetryAxis::none},
+                                            {"x", "along x", SymmetryAxis::x},
+                                            {"y", "along y", SymmetryAxis::y},
+                                            {"z", "along z", SymmetryAxis::z}};
+  return words;
+}
+
+template <>
 const Words<SumMethod>& words_of<SumMethod>() {
   static const Words<SumMethod> words = {
       {"auto", "fmm where the scene is large enough for it to be faster, else direct", SumMethod::automatic},

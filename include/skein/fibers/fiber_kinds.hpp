@@ -8,6 +8,9 @@
 
 namespace skein {
 
+/// The fiber at the place of another, which starts as that one does.
+FiberConfig put_in_place_of(FiberConfig fiber, const FiberConfig& other);
+
 /// What is made of fibers, once for all that are alike but for place and start: scenes often have many of one kind.
 class FiberKinds {
  public:

@@ -21,6 +21,9 @@ enum class PlacementKind { as_written, grid, random };
 /// Directions of the fibers that a placement makes.
 enum class Orientation { as_written, random };
 
+/// An axis of space that a symmetry of the scene goes with.
+enum class SymmetryAxis { none, x, y, z };
+
 /// How the sum over nodes that gives velocities is made.
 enum class SumMethod { automatic, direct, fmm };
 

@@ -134,6 +134,15 @@ struct TorqueConfig {
   friend bool operator==(const TorqueConfig&, const TorqueConfig&) = default;
 };
 
+/// What maps the scene onto itself, and keeps doing so: a plane or an axis through the origin.
+struct SymmetryConfig {
+  SymmetryAxis mirror = SymmetryAxis::none;     ///< normal of the plane
+  SymmetryAxis half_turn = SymmetryAxis::none;  ///< axis of a turn by 180 degrees
+
+  bool is_none() const { return mirror == SymmetryAxis::none && half_turn == SymmetryAxis::none; }
+  friend bool operator==(const SymmetryConfig&, const SymmetryConfig&) = default;
+};
+
 struct HydrodynamicsConfig {
   SumMethod method = SumMethod::automatic;
   Precision precision = Precision::automatic;  ///< arithmetic of a pair
@@ -192,6 +201,7 @@ struct SceneConfig {
   GravityConfig gravity;
   std::vector<TetherConfig> tethers;
   std::vector<TorqueConfig> torques;
+  SymmetryConfig symmetry;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
   OutputConfig output;

@@ -73,6 +73,8 @@ const Words<PlacementKind>& words_of<PlacementKind>();
 template <>
 const Words<Orientation>& words_of<Orientation>();
 template <>
+const Words<SymmetryAxis>& words_of<SymmetryAxis>();
+template <>
 const Words<SumMethod>& words_of<SumMethod>();
 template <>
 const Words<Precision>& words_of<Precision>();
