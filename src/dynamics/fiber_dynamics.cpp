@@ -62,10 +62,13 @@ void FiberDynamics::compute_velocity(const double time, const ConstVectors& posi
   physics_.compute_forces(time, places, force_);
   timer.begin_fluid();
   motion_.solve(places, force_, velocity);
+  if (physics_.symmetry != nullptr) physics_.symmetry->project(velocity);
 }
 
 void FiberDynamics::project(const Vectors& position) {
-  if (!physics_.rigid_bodies.is_empty()) motion_.compute_places(position, position);
+  if (physics_.rigid_bodies.is_empty()) return;
+  motion_.compute_places(position, position);
+  if (physics_.symmetry != nullptr) physics_.symmetry->project(position);
 }
 
 void FiberDynamics::multiply(const double time, const ConstVectors& position, const ConstVectors& displacement,
@@ -75,6 +78,7 @@ void FiberDynamics::multiply(const double time, const ConstVectors& position, co
   physics_.compute_force_changes(time, position, displacement, force_);
   timer.begin_fluid();
   physics_.mobility->add_velocity({position, force_, physics_.blob}, position, result);
+  if (physics_.symmetry != nullptr) physics_.symmetry->project(result);
 }
 
 Linearization* FiberDynamics::linearization() {
@@ -83,7 +87,8 @@ Linearization* FiberDynamics::linearization() {
     linearization_ = std::make_unique<FiberLinearization>(
         physics_.fibers, physics_.viscosity,
         [this](const double time, const ConstVectors& position, const ConstVectors& displacement,
-               const Vectors& result) { multiply(time, position, displacement, result); });
+               const Vectors& result) { multiply(time, position, displacement, result); },
+        physics_.symmetry);
   return linearization_.get();
 }
 

@@ -21,11 +21,13 @@ Vec3 normalize(const Vec3 v, const Vec3 otherwise) {
 
 }  // namespace
 
-FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const double viscosity, Product product)
+FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const double viscosity, Product product,
+                                       std::shared_ptr<const NodeSymmetry> symmetry)
     : fibers_(fibers),
       networks_(make_spring_networks(fibers)),
       viscosity_(viscosity),
       product_(std::move(product)),
+      symmetry_(std::move(symmetry)),
       position_("skein::FiberLinearization::position", static_cast<std::size_t>(count_nodes(fibers))) {
   for (const SpringNetwork& network : networks_)
     bands_.push_back(std::make_unique<BlockBand>(network.n_sections, 3 * network.stencil.nodes_per_section,
@@ -113,7 +115,8 @@ bool FiberLinearization::factorize(const ConstVectors& position, const double sc
 // At the speed at which pairs are summed: about 16 operations a pair.
 double FiberLinearization::evaluations_for(const double operations) const {
   const double n_nodes = static_cast<double>(position_.extent(0));
-  return operations / (16.0 * n_nodes * n_nodes);
+  const double gain = symmetry_ == nullptr ? 1.0 : symmetry_->orbits().gain();
+  return operations * gain / (16.0 * n_nodes * n_nodes);
 }
 
 double FiberLinearization::factorization_cost() const {
@@ -162,6 +165,7 @@ void FiberLinearization::precondition(const ConstVectors& v, const Vectors& resu
     section += fiber.config.sections;
   }
   Kokkos::deep_copy(ExecSpace(), result, out);
+  if (symmetry_ != nullptr) symmetry_->project(result);
   ExecSpace().fence();
 }
 

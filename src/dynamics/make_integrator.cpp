@@ -33,7 +33,7 @@ Rkc2Options make_options(const SceneConfig& scene, const Physics& physics) {
 
 // From the straight fibers of the start, also where a run goes on: the choice is the same then.
 MethodSelection select(const Rkc2Options& options, const Physics& physics, RightHandSide& rhs) {
-  const Vectors position = to_device("skein::make_integrator::position", make_surface_nodes(physics.fibers));
+  const Vectors position = to_device("skein::make_integrator::position", physics.make_start_nodes(options.seed));
   const double radius = find_spectral_radius_at(physics, rhs, 0.0, position, options.seed, rough_radius);
   const Linearization* linearization = rhs.linearization();
   return select_method(options, radius, linearization == nullptr ? 0.0 : linearization->factorization_cost(),

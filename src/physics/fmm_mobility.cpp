@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/fmm/fmm_sum.hpp>
+#include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
 #include "kernels/node_checks.hpp"
@@ -52,10 +53,10 @@ FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
 
 }  // namespace
 
-FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
+FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options, std::unique_ptr<Mobility> direct)
     : viscosity_(viscosity),
       options_(options),
-      direct_(viscosity, options.precision),
+      direct_(direct != nullptr ? std::move(direct) : std::make_unique<DirectMobility>(viscosity, options.precision)),
       sum_(make_fmm_sum(options.path)) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
   if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);
@@ -78,7 +79,7 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
   record_.order = 0;
   sum_->statistics.used_direct_sum = true;
   const FmmTargets targets = place_of(sources, target);
-  if (sums_directly(n_pairs, targets)) return direct_.add_velocity(sources, target, velocity);
+  if (sums_directly(n_pairs, targets)) return direct_->add_velocity(sources, target, velocity);
 
   if (!sum_->take(sources, target)) return Kokkos::deep_copy(velocity, std::numeric_limits<double>::quiet_NaN());
   while (evaluate(targets))
@@ -87,7 +88,7 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
       record_.order = sum_->statistics.plan.order;
       return sum_->add_to(velocity);
     }
-  direct_.add_velocity(sources, target, velocity);
+  direct_->add_velocity(sources, target, velocity);
 }
 
 bool FmmMobility::sums_directly(const double n_pairs, const FmmTargets targets) const {

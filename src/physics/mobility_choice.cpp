@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/fibers/node_orbits.hpp>
 #include <skein/physics/mobility_choice.hpp>
 
 #include <fmt/format.h>
@@ -69,14 +70,28 @@ std::string find_lack_of_far_field(const FmmOptions& options, const Size& size) 
       size.max_blob, options.tolerance, half_width, size.extent);
 }
 
+/// Direct sums of a symmetric scene weigh fewer pairs. Where fibers are not placed yet, nothing is known of that.
+void find_gain(const SceneConfig& scene, MobilityChoice& choice) {
+  if (scene.symmetry.is_none()) return;
+  const std::vector<Fiber> fibers = make_fibers(scene.fibers);
+  try {
+    const NodeOrbits orbits = make_node_orbits(scene.symmetry, fibers, make_surface_nodes(fibers, scene.seed));
+    choice.fmm.direct_speedup = orbits.gain();
+    choice.orbits = orbits.describe();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::scene_error) throw;
+  }
+}
+
 /// Decides between the methods by the number of nodes and where they are.
 void choose_method(const SceneConfig& scene, MobilityChoice& choice) {
   choice.fmm.direct_when_cheaper = true;
   const Size size = measure_size(scene);
   choice.is_direct = true;
-  if (size.n_nodes < least_fmm_nodes) {
-    choice.reason = fmt::format("chosen because it is exact, and below {:g} nodes little would be gained by any other",
-                                least_fmm_nodes);
+  const double least_nodes = least_fmm_nodes * choice.fmm.direct_speedup;
+  if (size.n_nodes < least_nodes) {
+    choice.reason = fmt::format(
+        "chosen because it is exact, and below {:.4g} nodes little would be gained by any other", least_nodes);
   } else if (needs_direct_sum(choice.fmm)) {
     choice.reason = fmt::format("chosen because tolerance = {:g} is below what the fast multipole method promises",
                                 choice.fmm.tolerance);
@@ -96,6 +111,7 @@ MobilityChoice choose_mobility(const SceneConfig& scene) {
   MobilityChoice choice;
   choice.precision = scene.hydrodynamics.precision;
   choice.fmm = make_fmm_options(scene.hydrodynamics);
+  find_gain(scene, choice);
   switch (scene.hydrodynamics.method) {
     case SumMethod::automatic:
       choose_method(scene, choice);
@@ -125,6 +141,7 @@ std::string describe_choice(const MobilityChoice& choice, const SceneConfig& sce
   std::string text = choice.is_direct
                          ? describe_direct_sum(choice.precision)
                          : describe_fmm_plan(choice.fmm, choose_fmm_plan(choice.fmm, measure_size(scene).max_blob, 0));
+  if (choice.is_direct && !choice.orbits.empty()) text += ", by " + choice.orbits;
   if (!choice.is_direct)
     text += choice.fmm.check_every > 0 ? fmt::format("; checked every {} evaluations", choice.fmm.check_every)
                                        : std::string("; never checked");

@@ -3,6 +3,7 @@
 #include <skein/physics/fmm_mobility.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/physics.hpp>
+#include <skein/physics/symmetric_mobility.hpp>
 
 #include "force_table.hpp"
 #include "motion_times.hpp"
@@ -14,11 +15,23 @@
 namespace skein {
 namespace {
 
+/// Null for a scene that has none. @throws Error(scene_error) where its fibers lack it
+std::shared_ptr<const NodeSymmetry> make_symmetry(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+  if (scene.symmetry.is_none()) return nullptr;
+  return std::make_shared<const NodeSymmetry>(
+      make_node_orbits(scene.symmetry, fibers, make_surface_nodes(fibers, scene.seed)));
+}
+
 /// The mobility a scene asks for.
-std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene) {
+std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, std::shared_ptr<const NodeSymmetry> symmetry) {
   const MobilityChoice choice = choose_mobility(scene);
-  if (choice.is_direct) return std::make_unique<DirectMobility>(scene.fluid.viscosity, choice.precision);
-  return std::make_unique<FmmMobility>(scene.fluid.viscosity, choice.fmm);
+  const double viscosity = scene.fluid.viscosity;
+  std::unique_ptr<Mobility> direct;
+  if (symmetry != nullptr)
+    direct = std::make_unique<SymmetricMobility>(viscosity, choice.precision, std::move(symmetry));
+  else
+    direct = std::make_unique<DirectMobility>(viscosity, choice.precision);
+  return choice.is_direct ? std::move(direct) : std::make_unique<FmmMobility>(viscosity, choice.fmm, std::move(direct));
 }
 
 }  // namespace
@@ -70,21 +83,29 @@ std::string Physics::describe_forces() const {
   return text;
 }
 
+std::vector<Vec3> Physics::make_start_nodes(const std::uint64_t seed) const {
+  std::vector<Vec3> nodes = make_surface_nodes(fibers, seed);
+  if (symmetry != nullptr) make_symmetric(symmetry->orbits(), fibers, nodes);
+  return nodes;
+}
+
 Physics make_physics(const SceneConfig& asked) {
   const SceneConfig scene = resolve_chains(asked);
   std::vector<Fiber> fibers = make_fibers(scene.fibers);
   RigidBodies rigid_bodies(fibers, scene.fluid.viscosity);
+  std::shared_ptr<const NodeSymmetry> symmetry = make_symmetry(scene, fibers);
   Sections sections(fibers);
   Scalars blob = to_device("skein::Physics::blob", make_blobs(fibers));
   std::vector<std::unique_ptr<Force>> forces = make_forces(scene, fibers);
   return {.fibers = std::move(fibers),
           .forces = std::move(forces),
           .flow = make_background_flow(scene.flows),
-          .mobility = make_mobility(scene),
+          .mobility = make_mobility(scene, symmetry),
           .rigid_bodies = std::move(rigid_bodies),
           .sections = std::move(sections),
           .blob = blob,
-          .viscosity = scene.fluid.viscosity};
+          .viscosity = scene.fluid.viscosity,
+          .symmetry = std::move(symmetry)};
 }
 
 }  // namespace skein

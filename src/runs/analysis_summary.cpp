@@ -1,5 +1,6 @@
 // The summary of an analysis, for people and as JSON.
 #include <skein/core/json.hpp>
+#include <skein/fibers/node_orbits.hpp>
 
 #include "runs/run_analysis.hpp"
 
@@ -146,6 +147,10 @@ void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_
 std::string describe_analysis(const RunAnalysis& analysis) {
   std::string text = fmt::format("{} frames to t = {:.6g} ({}); {}\n", analysis.time.size(), analysis.time.back(),
                                  analysis.status, describe_contact(analysis));
+  if (!analysis.scene.symmetry.is_none())
+    text += fmt::format(
+        "the scene is symmetric {} by assumption: defects and ways out of it are held at rounding, and no result\n",
+        describe_symmetry(analysis.scene.symmetry));
   for (std::size_t f = 0; f < analysis.fibers.size(); ++f) text += describe_fiber(analysis, f);
   return text;
 }
@@ -157,6 +162,7 @@ std::string describe_analysis_as_json(const RunAnalysis& analysis) {
   json.member("status", analysis.status).member("smallest_gap", smallest(analysis.smallest_gap));
   json.member("nodes_inside", largest(analysis.nodes_inside)).member("depth", largest(analysis.depth));
   json.member("crossings", analysis.crossings.back());
+  json.member("assumed_symmetry", describe_symmetry(analysis.scene.symmetry));
   json.key("fibers").begin_array();
   for (std::size_t f = 0; f < analysis.fibers.size(); ++f) write_fiber(json, analysis, f);
   return json.end_array().end_object().take() + "\n";

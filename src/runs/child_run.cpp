@@ -1,6 +1,7 @@
 #include "runs/child_run.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/fibers/node_orbits.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/start_file.hpp>
@@ -45,6 +46,24 @@ void check_same_fibers(const std::vector<FiberConfig>& fibers, const ParentState
                              before[i].nodes_per_section, parent.name));
 }
 
+/// Where the scene has a symmetry and the earlier run's state has not, the key is to be found in the file.
+void check_symmetry(const SceneConfig& config, std::vector<Vec3> position, const std::string& parent,
+                    const std::filesystem::path& scene, const std::vector<std::string>& changes) {
+  if (config.symmetry.is_none()) return;
+  const std::vector<Fiber> fibers = make_fibers(config.fibers);
+  try {
+    make_symmetric(make_node_orbits(config.symmetry, fibers, make_surface_nodes(fibers, config.seed)), fibers,
+                   position);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::scene_error) throw;
+    const std::string key = config.symmetry.mirror == SymmetryAxis::none ? "symmetry.half_turn" : "symmetry.mirror";
+    const KeyProblem problem{key, fmt::format("the state of '{}' is not symmetric {}: {}; set symmetry.mirror and "
+                                              "symmetry.half_turn to \"none\", or begin with an earlier frame",
+                                              parent, describe_symmetry(config.symmetry), error.what())};
+    read_scene(scene, changes, [&](const SceneConfig&) { return std::vector<KeyProblem>{problem}; });
+  }
+}
+
 }  // namespace
 
 NewRun make_new_run(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
@@ -73,7 +92,8 @@ NewRun make_child_run(const std::string& parent_name, const std::filesystem::pat
                                   parent.time, parent.name));
   config.start = {checksum_of_start(run.start), parent.name, parent.certificate, parent.step};
   run.placed.text = write_readable_scene(config);
-  decode_start(run.start, RunFolder::start_name, config);  // whatever the checkpoint holds, the run can begin with it
+  // Whatever the checkpoint holds, the run can begin with it.
+  check_symmetry(config, decode_start(run.start, RunFolder::start_name, config), parent.name, file, changes);
   return run;
 }
 

@@ -54,8 +54,9 @@ EvaluationCost time_evaluation(FiberDynamics& dynamics, const ConstVectors& posi
   EvaluationCost cost;
   cost.seconds = time_calls([&] { dynamics.compute_velocity(0.0, position, velocity); });
   const Physics& physics = dynamics.physics();
+  const double gain = physics.symmetry == nullptr ? 1.0 : physics.symmetry->orbits().gain();
   if (physics.mobility->error_record().n_approximate > 0)
-    cost.direct_seconds = time_direct_sum(position, physics.viscosity);
+    cost.direct_seconds = time_direct_sum(position, physics.viscosity) / gain;
   return cost;
 }
 

@@ -19,7 +19,7 @@ Pilot run_pilot(const SceneConfig& asked, const int n_intervals, const double ma
   const SceneConfig scene = resolve_times(asked);
   Physics physics = make_physics(scene);
   FiberDynamics dynamics(physics);
-  State state{0.0, 0, to_device("skein::Pilot::position", make_surface_nodes(physics.fibers, scene.seed))};
+  State state{0.0, 0, to_device("skein::Pilot::position", physics.make_start_nodes(scene.seed))};
   const auto integrator = make_integrator(scene, physics, dynamics);
   RunAnalyzer analyzer(
       scene, physics, [&](const Vec3 position) { return compute_typical_gradient(scene.flows, position); },

@@ -6,6 +6,7 @@
 #include <skein/physics/chain.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
+#include <skein/physics/symmetry_check.hpp>
 #include <skein/scene/fiber_spacing.hpp>
 
 #include "runs/memory_limit.hpp"
@@ -32,7 +33,9 @@ PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vect
   try {
     SceneConfig placed = place_fibers(resolve_chains(reading.config));
     // They are only known once fibers are placed, and only the file knows where their keys stand.
-    const auto problems = find_time_problems(placed);
+    auto problems = find_time_problems(placed);
+    const auto broken = find_symmetry_problems(placed);
+    problems.insert(problems.end(), broken.begin(), broken.end());
     if (!problems.empty()) read_scene(file, overrides, [&](const SceneConfig&) { return problems; });
     reading.config = resolve_times(std::move(placed));
     check_overlap(make_fibers(reading.config.fibers), reading.config.seed);

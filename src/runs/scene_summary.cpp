@@ -3,6 +3,7 @@
 #include <skein/core/terminal_text.hpp>
 #include <skein/fibers/calibration.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/fibers/node_orbits.hpp>
 #include <skein/fibers/spring_network.hpp>
 #include <skein/physics/flow_summary.hpp>
 #include <skein/physics/repulsion_range.hpp>
@@ -135,6 +136,16 @@ std::string describe_repulsion(const SceneConfig& scene, const double rate, cons
   return text + "\n";
 }
 
+// What is taken for granted cannot be found.
+std::string describe_assumption(const SymmetryConfig& symmetry) {
+  if (symmetry.is_none()) return {};
+  return fmt::format(
+      "symmetry: {}, to the last bit, by assumption: that fibers keep to a plane or stay odd about their middle is "
+      "then "
+      "no result of a run\n",
+      describe_symmetry(symmetry));
+}
+
 }  // namespace
 
 std::string describe_scene(const SceneConfig& scene) {
@@ -146,7 +157,7 @@ std::string describe_scene(const SceneConfig& scene) {
   for (std::size_t f = 0; f < std::min(fibers.size(), max_described); ++f)
     text += describe_fiber(scene, rate, fibers[f], static_cast<int>(f));
   if (fibers.size() > max_described) text += fmt::format("... and {} more\n", fibers.size() - max_described);
-  return text + describe_repulsion(scene, rate, fibers);
+  return text + describe_repulsion(scene, rate, fibers) + describe_assumption(scene.symmetry);
 }
 
 }  // namespace skein

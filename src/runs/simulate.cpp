@@ -22,7 +22,7 @@ std::string describe_dry_run(const SceneConfig& scene) {
   Physics physics = make_physics(scene);
   FiberDynamics dynamics(physics);
   const auto integrator = make_integrator(scene, physics, dynamics);
-  const Vectors position = to_device("skein::describe_dry_run", make_surface_nodes(physics.fibers, scene.seed));
+  const Vectors position = to_device("skein::describe_dry_run", physics.make_start_nodes(scene.seed));
   State state{scene.time.start, 0, position};
   MemorySize size;
   visit_memory(size, state);

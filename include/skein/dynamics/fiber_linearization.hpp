@@ -2,6 +2,7 @@
 
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/spring_network.hpp>
+#include <skein/physics/node_symmetry.hpp>
 #include <skein/solvers/linearization.hpp>
 
 #include <functional>
@@ -21,7 +22,9 @@ class FiberLinearization final : public Linearization {
   using Product = std::function<void(double time, const ConstVectors& position, const ConstVectors& displacement,
                                      const Vectors& result)>;
 
-  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product);
+  /// @param symmetry  that products keep, and so what the preconditioner makes of them; null: none
+  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product,
+                     std::shared_ptr<const NodeSymmetry> symmetry);
   ~FiberLinearization() override;
 
   void set_position(double time, const ConstVectors& position) override;
@@ -45,6 +48,7 @@ class FiberLinearization final : public Linearization {
   std::vector<SpringNetwork> networks_;
   double viscosity_;
   Product product_;
+  std::shared_ptr<const NodeSymmetry> symmetry_;
   double time_ = 0.0;
   Vectors position_;
   std::vector<Frame> frames_, frames_at_factorization_;  ///< [n_sections]

@@ -24,6 +24,7 @@ struct FmmOptions {
   double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
   Precision precision = Precision::automatic;
   bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
+  double direct_speedup = 1.0;       ///< of the direct sums that there are instead, over those of all pairs
   bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
   double singular_cutoff = 0.0;      ///< of the surface operators, relative; a raised order has its own
   int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks

@@ -16,6 +16,7 @@ struct MobilityChoice {
   Precision precision = Precision::automatic;  ///< of direct sums
   FmmOptions fmm;
   std::string reason;  ///< of method = "auto"; else empty
+  std::string orbits;  ///< whose first nodes direct sums are made for, in words; empty: for all nodes
 };
 
 /// The same on every machine, so that a run can be repeated.

@@ -4,10 +4,12 @@
 #include <skein/physics/background_flow.hpp>
 #include <skein/physics/force.hpp>
 #include <skein/physics/mobility.hpp>
+#include <skein/physics/node_symmetry.hpp>
 #include <skein/physics/rigid_bodies.hpp>
 #include <skein/physics/sections.hpp>
 #include <skein/scene/scene_config.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,10 +24,15 @@ struct Physics {
   std::vector<std::unique_ptr<Force>> forces;  ///< in the order in which they are added up; springs first
   std::unique_ptr<BackgroundFlow> flow;
   std::unique_ptr<Mobility> mobility;
-  RigidBodies rigid_bodies;  ///< those of the fibers that are rigid
-  Sections sections;         ///< of the fibers
-  Scalars blob;              ///< [n_nodes], length
-  double viscosity = 1.0;    ///< force * time / length^2
+  RigidBodies rigid_bodies;                      ///< those of the fibers that are rigid
+  Sections sections;                             ///< of the fibers
+  Scalars blob;                                  ///< [n_nodes], length
+  double viscosity = 1.0;                        ///< force * time / length^2
+  std::shared_ptr<const NodeSymmetry> symmetry;  ///< that velocities keep; null: none
+
+  /// Nodes at the start, of which those of a symmetric scene are images of each other to the last bit.
+  /// @param seed  of random bends  @returns [n_nodes], length
+  std::vector<Vec3> make_start_nodes(std::uint64_t seed) const;
 
   /// Overwrites force, [n_nodes, 3], with the sum of all forces on each node; what keeps fibers rigid is not among
   /// them.
