@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/physics/symmetry_check.hpp>
 
 #include "studies/ladder_table.hpp"
 #include "studies/rung.hpp"
@@ -31,6 +32,8 @@ Candidate make_candidate(const SceneConfig& scene, const int rung) {
   if (candidate.verdict.empty()) try {
       candidate.scene = make_rung_scene(scene, rung);
       candidate.n_nodes = count_nodes(make_fibers(candidate.scene.fibers));
+      const auto problems = find_symmetry_problems(candidate.scene);
+      if (!problems.empty()) candidate.verdict = problems.front().message;
     } catch (const Error& error) {
       candidate.verdict = error.what();
     }

@@ -1,6 +1,7 @@
 #include "studies/plan_check.hpp"
 
 #include <skein/physics/scene_times.hpp>
+#include <skein/physics/symmetry_check.hpp>
 
 #include "studies/ladder_table.hpp"
 #include "studies/rung.hpp"
@@ -36,8 +37,10 @@ std::vector<PlanCheck> check_plans(const SceneConfig& asked, const PlanRequest& 
   };
   std::vector<Measured> rungs;
   for (const LadderRow& row : list_ladder()) {
+    const SceneConfig rung = make_rung_scene(scene, row.nodes_per_section);
+    if (!find_symmetry_problems(rung).empty()) continue;
     say("a rung");
-    rungs.push_back(measure(make_rung_scene(scene, row.nodes_per_section)));
+    rungs.push_back(measure(rung));
   }
   std::vector<PlanCheck> checks;
   for (const double tolerance : tolerances) {
