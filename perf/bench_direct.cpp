@@ -1,8 +1,12 @@
-// Pairs per second of the direct sum: general and symmetric, double and single precision, beside a plain OpenMP loop in
-// the same run. Usage: bench_direct [nodes...]   (threads: OMP_NUM_THREADS)
+// Pairs per second of the direct sum: general and symmetric, by a half and a quarter of the nodes and their images,
+// double and single precision, beside a plain OpenMP loop in the same run. Pairs are those of all nodes. Usage:
+// bench_direct [nodes...]   (threads: OMP_NUM_THREADS)
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/fibers/fiber.hpp>
+#include <skein/fibers/node_orbits.hpp>
+#include <skein/physics/node_symmetry.hpp>
+#include <skein/physics/symmetric_mobility.hpp>
 
 #include "harness.hpp"
 #include "kernels/stokeslet_direct.hpp"
@@ -12,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -59,6 +64,20 @@ void add_symmetric_bodies(const Vectors& position, const Vectors& force, const S
   }
 }
 
+/// Sums over images, in both precisions.
+void add_image_bodies(const std::shared_ptr<const NodeSymmetry>& symmetry, const char* share, const Sources& nodes,
+                      const Vectors& velocity, std::vector<std::string>& names,
+                      std::vector<std::function<void()>>& bodies) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+    names.push_back(std::string(share) + (precision == Precision::in_double ? ", double" : ", single"));
+    const auto mobility = std::make_shared<SymmetricMobility>(viscosity, precision, symmetry);
+    bodies.push_back([=] {
+      Kokkos::deep_copy(velocity, 0.0);
+      mobility->add_velocity(nodes, nodes.position, velocity);
+    });
+  }
+}
+
 std::vector<Result> bench(const int sections) {
   FiberConfig config;
   config.sections = sections;
@@ -74,6 +93,13 @@ std::vector<Result> bench(const int sections) {
   const Vectors force = to_device("force", forces);
   const Scalars blob = to_device("blob", make_blobs(fibers));
   const Vectors velocity("velocity", n);
+  const auto make_symmetry = [&](const SymmetryConfig& symmetry) {
+    return std::make_shared<const NodeSymmetry>(make_node_orbits(symmetry, fibers, nodes));
+  };
+  const auto half = make_symmetry({.mirror = SymmetryAxis::z}),
+             quarter = make_symmetry({SymmetryAxis::z, SymmetryAxis::z});
+  quarter->project(position);
+  quarter->project(force);
   const auto general = [&](const Precision precision) {
     Kokkos::deep_copy(velocity, 0.0);
     add_stokeslet_velocity<ExecSpace>(ExecSpace(), position, force, blob, position, velocity, viscosity, precision);
@@ -90,6 +116,8 @@ std::vector<Result> bench(const int sections) {
       },
       [&] { general(Precision::in_double); }, [&] { general(Precision::in_single); }};
   add_symmetric_bodies<ExecSpace>(position, force, blob, velocity, names, bodies);
+  add_image_bodies(half, "a half", {position, force, blob}, velocity, names, bodies);
+  add_image_bodies(quarter, "a quarter", {position, force, blob}, velocity, names, bodies);
   const int repeats = n < 4000 ? 21 : n < 12000 ? 7 : 3;
   const auto seconds = perf::median_seconds(repeats, bodies);
   std::vector<Result> results;

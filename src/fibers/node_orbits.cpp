@@ -79,8 +79,12 @@ double NodeOrbits::gain() const {
   return n_nodes == 0 ? 1.0 : n * n / count_image_pairs(group, classes);
 }
 
-std::string NodeOrbits::describe() const {
-  return fmt::format("{} of {} nodes and their images, {:.3g} times fewer pairs", n_orbits(), n_nodes, gain());
+std::string NodeOrbits::describe_images() const {
+  return fmt::format("by {} of {} nodes and their images, {:.3g} times fewer pairs", n_orbits(), n_nodes, gain());
+}
+
+std::string NodeOrbits::describe_targets() const {
+  return fmt::format("for {} of {} nodes, of which all others are images", n_orbits(), n_nodes);
 }
 
 NodeOrbits make_node_orbits(const SymmetryConfig& symmetry, const std::vector<Fiber>& fibers,

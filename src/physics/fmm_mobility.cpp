@@ -1,6 +1,5 @@
 #include <skein/core/error.hpp>
 #include <skein/fmm/fmm_sum.hpp>
-#include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
 #include "kernels/node_checks.hpp"
@@ -47,16 +46,12 @@ double norm_at(const Vectors& velocity, const EvenSample& sample) {
   return std::sqrt(sum);
 }
 
-FmmTargets place_of(const Sources& sources, const ConstVectors& target) {
-  return are_same_nodes(sources.position, target) ? FmmTargets::at_sources : FmmTargets::apart;
-}
-
 }  // namespace
 
-FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options, std::unique_ptr<Mobility> direct)
+FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
     : viscosity_(viscosity),
       options_(options),
-      direct_(direct != nullptr ? std::move(direct) : std::make_unique<DirectMobility>(viscosity, options.precision)),
+      direct_(viscosity, options.precision),
       sum_(make_fmm_sum(options.path)) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
   if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);
@@ -79,7 +74,7 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
   record_.order = 0;
   sum_->statistics.used_direct_sum = true;
   const FmmTargets targets = place_of(sources, target);
-  if (sums_directly(n_pairs, targets)) return direct_->add_velocity(sources, target, velocity);
+  if (sums_directly(n_pairs, targets)) return direct_.add_velocity(sources, target, velocity);
 
   if (!sum_->take(sources, target)) return Kokkos::deep_copy(velocity, std::numeric_limits<double>::quiet_NaN());
   while (evaluate(targets))
@@ -88,7 +83,11 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
       record_.order = sum_->statistics.plan.order;
       return sum_->add_to(velocity);
     }
-  direct_->add_velocity(sources, target, velocity);
+  direct_.add_velocity(sources, target, velocity);
+}
+
+FmmTargets FmmMobility::place_of(const Sources& sources, const ConstVectors& target) const {
+  return are_same_nodes(sources.position, target) ? FmmTargets::at_sources : options_.other_targets;
 }
 
 bool FmmMobility::sums_directly(const double n_pairs, const FmmTargets targets) const {

@@ -70,25 +70,26 @@ std::string find_lack_of_far_field(const FmmOptions& options, const Size& size) 
       size.max_blob, options.tolerance, half_width, size.extent);
 }
 
-/// Direct sums of a symmetric scene weigh fewer pairs. Where fibers are not placed yet, nothing is known of that.
-void find_gain(const SceneConfig& scene, MobilityChoice& choice) {
-  if (scene.symmetry.is_none()) return;
+/// Of a scene with a symmetry whose fibers are placed; else without nodes.
+NodeOrbits find_orbits(const SceneConfig& scene) {
+  if (scene.symmetry.is_none()) return {};
   const std::vector<Fiber> fibers = make_fibers(scene.fibers);
   try {
-    const NodeOrbits orbits = make_node_orbits(scene.symmetry, fibers, make_surface_nodes(fibers, scene.seed));
-    choice.fmm.direct_speedup = orbits.gain();
-    choice.orbits = orbits.describe();
+    return make_node_orbits(scene.symmetry, fibers, make_surface_nodes(fibers, scene.seed));
   } catch (const Error& error) {
     if (error.code() != ExitCode::scene_error) throw;
+    return {};
   }
 }
 
-/// Decides between the methods by the number of nodes and where they are.
-void choose_method(const SceneConfig& scene, MobilityChoice& choice) {
+/// Decides between the methods by the number of nodes and where they are. What a symmetry makes direct sums faster, it
+/// makes the fast multipole method by about the root of that: half of its work is for sources, all of which remain.
+/// @param gain  of direct sums
+void choose_method(const SceneConfig& scene, const double gain, MobilityChoice& choice) {
   choice.fmm.direct_when_cheaper = true;
   const Size size = measure_size(scene);
   choice.is_direct = true;
-  const double least_nodes = least_fmm_nodes * choice.fmm.direct_speedup;
+  const double least_nodes = least_fmm_nodes * std::sqrt(gain);
   if (size.n_nodes < least_nodes) {
     choice.reason = fmt::format(
         "chosen because it is exact, and below {:.4g} nodes little would be gained by any other", least_nodes);
@@ -111,19 +112,20 @@ MobilityChoice choose_mobility(const SceneConfig& scene) {
   MobilityChoice choice;
   choice.precision = scene.hydrodynamics.precision;
   choice.fmm = make_fmm_options(scene.hydrodynamics);
-  find_gain(scene, choice);
+  const NodeOrbits orbits = find_orbits(scene);
   switch (scene.hydrodynamics.method) {
     case SumMethod::automatic:
-      choose_method(scene, choice);
-      return choice;
+      choose_method(scene, orbits.gain(), choice);
+      break;
     case SumMethod::direct:
       choice.is_direct = true;
-      return choice;
+      break;
     case SumMethod::fmm:
       choice.is_direct = false;
-      return choice;
+      break;
   }
-  throw Error(ExitCode::internal, "choose_mobility knows no such method");
+  if (orbits.n_nodes > 0) choice.orbits = choice.is_direct ? orbits.describe_images() : orbits.describe_targets();
+  return choice;
 }
 
 std::string describe_direct_sum(const Precision precision) {
@@ -141,7 +143,7 @@ std::string describe_choice(const MobilityChoice& choice, const SceneConfig& sce
   std::string text = choice.is_direct
                          ? describe_direct_sum(choice.precision)
                          : describe_fmm_plan(choice.fmm, choose_fmm_plan(choice.fmm, measure_size(scene).max_blob, 0));
-  if (choice.is_direct && !choice.orbits.empty()) text += ", by " + choice.orbits;
+  if (!choice.orbits.empty()) text += ", " + choice.orbits;
   if (!choice.is_direct)
     text += choice.fmm.check_every > 0 ? fmt::format("; checked every {} evaluations", choice.fmm.check_every)
                                        : std::string("; never checked");

@@ -21,7 +21,8 @@ NodeSymmetry::NodeSymmetry(NodeOrbits orbits)
     : orbits_(std::move(orbits)),
       image_("skein::NodeSymmetry::image", static_cast<std::size_t>(orbits_.n_orbits()), orbits_.group.size()),
       vanishing_(copy_to_device("skein::NodeSymmetry::vanishing", list_vanishing(orbits_))) {
-  SKEIN_REQUIRE(!orbits_.group.empty() && orbits_.group.size() <= most_elements, "a group of sign matrices has 1 to 8");
+  SKEIN_REQUIRE(!orbits_.group.empty() && orbits_.group.size() <= SignGroup::most_elements,
+                "a group of sign matrices has 1 to 8");
   for (const SignMatrix element : orbits_.group) group_.element[group_.n_elements++] = element;
   const auto image = Kokkos::create_mirror_view(image_);
   for (int orbit = 0; orbit < orbits_.n_orbits(); ++orbit)
@@ -32,7 +33,7 @@ NodeSymmetry::NodeSymmetry(NodeOrbits orbits)
 
 void NodeSymmetry::project(const Vectors& vectors) const {
   SKEIN_REQUIRE(vectors.extent_int(0) == orbits_.n_nodes, "vectors are those of the symmetric nodes");
-  const Group group = group_;
+  const SignGroup group = group_;
   const auto image = image_;
   const auto vanishing = vanishing_;
   Kokkos::parallel_for(
@@ -59,7 +60,7 @@ void NodeSymmetry::take_first(const ConstVectors& of_node, const Vectors& of_orb
 void NodeSymmetry::add_images(const ConstVectors& of_orbit, const Vectors& of_node) const {
   SKEIN_REQUIRE(of_node.extent_int(0) == orbits_.n_nodes && of_orbit.extent_int(0) == orbits_.n_orbits(),
                 "vectors are those of the symmetric nodes and of their orbits");
-  const Group group = group_;
+  const SignGroup group = group_;
   const auto image = image_;
   const auto vanishing = vanishing_;
   Kokkos::parallel_for(

@@ -23,15 +23,14 @@ std::shared_ptr<const NodeSymmetry> make_symmetry(const SceneConfig& scene, cons
 }
 
 /// The mobility a scene asks for.
-std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, std::shared_ptr<const NodeSymmetry> symmetry) {
+std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::shared_ptr<const NodeSymmetry>& symmetry) {
   const MobilityChoice choice = choose_mobility(scene);
   const double viscosity = scene.fluid.viscosity;
-  std::unique_ptr<Mobility> direct;
-  if (symmetry != nullptr)
-    direct = std::make_unique<SymmetricMobility>(viscosity, choice.precision, std::move(symmetry));
-  else
-    direct = std::make_unique<DirectMobility>(viscosity, choice.precision);
-  return choice.is_direct ? std::move(direct) : std::make_unique<FmmMobility>(viscosity, choice.fmm, std::move(direct));
+  if (symmetry != nullptr && choice.is_direct)
+    return std::make_unique<SymmetricMobility>(viscosity, choice.precision, symmetry);
+  if (symmetry != nullptr) return std::make_unique<SymmetricMobility>(viscosity, choice.fmm, symmetry);
+  if (choice.is_direct) return std::make_unique<DirectMobility>(viscosity, choice.precision);
+  return std::make_unique<FmmMobility>(viscosity, choice.fmm);
 }
 
 }  // namespace

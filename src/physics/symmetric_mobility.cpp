@@ -1,124 +1,82 @@
 #include <skein/core/error.hpp>
-#include <skein/physics/mobility_choice.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 #include <skein/physics/symmetric_mobility.hpp>
 
+#include "image_sum.hpp"
 #include "kernels/node_checks.hpp"
-#include "kernels/stokeslet_direct.hpp"
-#include "kernels/stokeslet_images.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 namespace skein {
+namespace {
 
-/// What the host's sum over images needs. Arrays are [n_elements * n_orbits], see ImageMatches.
-struct SymmetricMobility::Copies {
-  explicit Copies(const NodeOrbits& orbits)
-      : matches(make_image_matches(orbits.group, orbits.classes)),
-        share("skein::SymmetricMobility::share", static_cast<std::size_t>(orbits.n_orbits())) {
-    const std::size_t n = orbits.group.size() * share.extent(0);
-    position = HostVectors("skein::SymmetricMobility::position", n);
-    force = HostVectors("skein::SymmetricMobility::force", n);
-    velocity = HostVectors("skein::SymmetricMobility::velocity", n);
-    blob = HostScalars("skein::SymmetricMobility::blob", n);
-    for (const OrbitClass& run : orbits.classes)
-      for (int orbit = run.first; orbit < run.first + run.count; ++orbit)
-        share(orbit) = 1.0 / static_cast<double>(run.stabilizer.size());
-  }
+/// First nodes are nodes, also where they are an array of their own.
+FmmOptions put_targets_at_sources(FmmOptions options) {
+  options.other_targets = FmmTargets::at_sources;
+  return options;
+}
 
-  /// @param first_force  [n_orbits, 3]
-  void fill(const HostSpace& space, const std::vector<SignMatrix>& group,
-            const ConstVectorView<HostSpace>& first_position, const ConstVectorView<HostSpace>& first_force,
-            const double blob_of_all) {
-    const int n_orbits = share.extent_int(0);
-    Kokkos::parallel_for("skein::SymmetricMobility::fill", Kokkos::RangePolicy<HostSpace>(space, 0, n_orbits),
-                         [&](const int orbit) {
-                           const Vec3 x = load(first_position, orbit);
-                           const Vec3 f = share(orbit) * load(first_force, orbit);
-                           int copy = orbit;
-                           for (const SignMatrix element : group) {
-                             store(position, copy, element * x);
-                             store(force, copy, element * f);
-                             copy += n_orbits;
-                           }
-                         });
-    Kokkos::deep_copy(blob, blob_of_all);
-    Kokkos::deep_copy(velocity, 0.0);
-  }
+}  // namespace
 
-  /// The velocities of first nodes: those of all copies, mapped back.
-  void fold(const HostSpace& space, const std::vector<SignMatrix>& group,
-            const VectorView<HostSpace>& first_velocity) const {
-    const int n_orbits = share.extent_int(0);
-    Kokkos::parallel_for("skein::SymmetricMobility::fold", Kokkos::RangePolicy<HostSpace>(space, 0, n_orbits),
-                         [&](const int orbit) {
-                           Vec3 sum;
-                           int copy = orbit;
-                           for (const SignMatrix element : group) {
-                             sum = sum + element * load(velocity, copy);
-                             copy += n_orbits;
-                           }
-                           store(first_velocity, orbit, sum);
-                         });
-  }
-
-  ImageMatches matches;
-  HostScalars share;  ///< [n_orbits]: one over the number of elements that keep a node in place
-  HostVectors position, force, velocity;
-  HostScalars blob;
-};
+SymmetricMobility::SymmetricMobility(std::shared_ptr<const NodeSymmetry> symmetry, std::unique_ptr<Mobility> at_nodes,
+                                     std::unique_ptr<Mobility> elsewhere)
+    : symmetry_(std::move(symmetry)),
+      at_nodes_(std::move(at_nodes)),
+      elsewhere_(std::move(elsewhere)),
+      first_position_("skein::SymmetricMobility::first_position", symmetry_->orbits().n_orbits()),
+      first_velocity_("skein::SymmetricMobility::first_velocity", symmetry_->orbits().n_orbits()) {}
 
 SymmetricMobility::SymmetricMobility(const double viscosity, const Precision precision,
                                      std::shared_ptr<const NodeSymmetry> symmetry)
-    : viscosity_(viscosity),
-      precision_(precision == Precision::automatic ? Precision::in_double : precision),
-      symmetry_(std::move(symmetry)),
-      direct_(viscosity, precision),
-      first_position_("skein::SymmetricMobility::first_position", symmetry_->orbits().n_orbits()),
-      first_velocity_("skein::SymmetricMobility::first_velocity", symmetry_->orbits().n_orbits()) {
-  if (on_host<ExecSpace> && symmetry_->orbits().n_orbits() > 0) copies_ = std::make_unique<Copies>(symmetry_->orbits());
+    : SymmetricMobility(std::move(symmetry), std::make_unique<DirectMobility>(viscosity, precision),
+                        std::make_unique<DirectMobility>(viscosity, precision)) {
+  if constexpr (on_host<ExecSpace>)
+    images_ = std::make_unique<ImageSum>(symmetry_, viscosity,
+                                         precision == Precision::automatic ? Precision::in_double : precision);
 }
+
+SymmetricMobility::SymmetricMobility(const double viscosity, const FmmOptions& options,
+                                     std::shared_ptr<const NodeSymmetry> symmetry)
+    : SymmetricMobility(std::move(symmetry), std::make_unique<FmmMobility>(viscosity, put_targets_at_sources(options)),
+                        std::make_unique<FmmMobility>(viscosity, options)) {}
 
 SymmetricMobility::~SymmetricMobility() = default;
-
-template <class Space>
-bool SymmetricMobility::try_images(const Space& space, const Sources& sources) {
-  if constexpr (on_host<Space>) {
-    const NodeOrbits& orbits = symmetry_->orbits();
-    if (orbits.n_nodes < min_symmetric_nodes) return false;
-    const BlobRange blobs = find_blob_range<Space>(space, sources.blob);
-    if (blobs.smallest != blobs.largest) return false;
-    symmetry_->take_first(sources.force, first_velocity_);
-    copies_->fill(space, orbits.group, first_position_, first_velocity_, blobs.largest);
-    add_image_stokeslet_velocity(space, copies_->matches, copies_->position, copies_->force, copies_->blob,
-                                 copies_->velocity, viscosity_, precision_);
-    copies_->fold(space, orbits.group, first_velocity_);
-    return true;
-  } else {
-    return false;
-  }
-}
 
 void SymmetricMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   const NodeOrbits& orbits = symmetry_->orbits();
   if (!are_same_nodes(sources.position, target) || target.extent_int(0) != orbits.n_nodes)
-    return direct_.add_velocity(sources, target, velocity);
+    return elsewhere_->add_velocity(sources, target, velocity);
   SKEIN_REQUIRE(target.extent(0) == sources.force.extent(0) && target.extent(0) == sources.blob.extent(0) &&
                     target.extent(0) == velocity.extent(0),
                 "positions, forces, blobs and velocities differ in number");
   pairs_ += static_cast<double>(orbits.n_nodes) * static_cast<double>(orbits.n_nodes);
   symmetry_->take_first(sources.position, first_position_);
-  if (!try_images(ExecSpace(), sources)) {
+  if (!try_images(sources)) {
     Kokkos::deep_copy(ExecSpace(), first_velocity_, 0.0);
-    add_stokeslet_velocity<ExecSpace>(ExecSpace(), sources.position, sources.force, sources.blob, first_position_,
-                                      first_velocity_, viscosity_, precision_);
+    at_nodes_->add_velocity(sources, first_position_, first_velocity_);
   }
   symmetry_->add_images(first_velocity_, velocity);
 }
 
+bool SymmetricMobility::try_images(const Sources& sources) {
+  if (images_ == nullptr || !images_->suits(sources)) return false;
+  images_->compute(sources, first_position_, first_velocity_);
+  return true;
+}
+
+std::vector<std::string> SymmetricMobility::take_messages() {
+  std::vector<std::string> messages = at_nodes_->take_messages();
+  for (std::string& message : elsewhere_->take_messages()) messages.push_back(std::move(message));
+  return messages;
+}
+
 std::string SymmetricMobility::describe() const {
-  return fmt::format("{}, by {}", describe_direct_sum(precision_), symmetry_->orbits().describe());
+  const NodeOrbits& orbits = symmetry_->orbits();
+  return fmt::format("{}, {}", at_nodes_->describe(),
+                     images_ != nullptr ? orbits.describe_images() : orbits.describe_targets());
 }
 
 }  // namespace skein

@@ -101,6 +101,19 @@ class Planning(InFreshFolder):
         self.expect(USAGE, "bench", "ladder", "-o", "x", "--lengths", "0.139,nan")
         self.assertFalse((self.folder / "x").exists())
 
+    def test_rungs_keep_the_scenes_symmetry_or_are_named(self):
+        """An odd number of nodes on a section allows no half turn."""
+        code, plan = self.plan("--tolerance", "0.1", "--set", "time.end=2.0", "--set", "fiber.nodes_per_section=12",
+                               "--set", "fiber.sections=54", "--set", "symmetry.mirror=z", "--set",
+                               "symmetry.half_turn=z", "-o", "planned.toml")
+        self.assertEqual(code, DONE, plan)
+        self.assertEqual([rung["nodes_per_section"] for rung in plan["missing"]], [5, 9])
+        for rung in plan["missing"]:
+            self.assertIn("half_turn", rung["reason"])
+            self.assertIn("no partner", rung["reason"])
+        self.assertEqual([rung["nodes_per_section"] for rung in plan["candidates"]], [1, 4, 6, 12, 18])
+        self.assertIn('half_turn = "z"', (self.folder / "planned.toml").read_text())
+
     def test_nothing_is_left_behind(self):
         before = self.snapshot(self.folder)
         self.plan("--tolerance", "0.1", "--set", "time.end=1.0")

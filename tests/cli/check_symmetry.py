@@ -61,7 +61,7 @@ def kill_and_resume(program, command, folder):
 def read_positions(folder):
     with h5py.File(folder / "trajectory.h5") as file:
         position = file["/particles/fibers/position/value"][()]
-    return position.reshape(len(position), N_SECTIONS, N_AROUND, 3)
+    return position.reshape(len(position), -1, N_AROUND, 3)
 
 
 def check_symmetric(position):
@@ -99,6 +99,20 @@ def check_going_on(program, run, folder):
     check(distance < TOLERANCE * LENGTH, f"the run without symmetry is {distance} away")
 
 
+def check_other_ways(program, scene, folder):
+    """Implicit steps, the fast multipole method and chains are as symmetric."""
+    short = [f"time.end={END / 4}"]
+    for name, overrides in (("implicit", ['time.method="trbdf2"']),
+                            ("fmm", ['hydrodynamics.method="fmm"', "hydrodynamics.tolerance=1e-3", "fiber.sections=300"])):
+        skein(*run_command(program, scene, folder / name, OVERRIDES + SYMMETRY + short + overrides), "-q")
+        check_symmetric(read_positions(folder / name))
+    skein(*run_command(program, scene, folder / "chain", SYMMETRY + short + ['fiber.model="chain"']), "-q")
+    with h5py.File(folder / "chain" / "trajectory.h5") as file:
+        line = file["/particles/fibers/position/value"][()]
+    check(not line[:, :, 2].any(), "the chain has left its plane")
+    check(np.array_equal(line[:, ::-1] * np.array([-1.0, -1.0, 1.0]), line), "the chain has lost its half turn")
+
+
 def check_unsymmetric_state(program, scene, folder):
     """A state that never was symmetric is refused, at the key."""
     bent = folder / "bent"
@@ -128,6 +142,7 @@ def main():
     check_verbs(program, whole, folder)
     check_going_on(program, killed, folder)
     check_unsymmetric_state(program, scene, folder)
+    check_other_ways(program, scene, folder)
 
 
 main()

@@ -71,6 +71,31 @@ TEST(SymmetricMobility, AddsToVelocitiesAndServesOtherTargets) {
   EXPECT_EQ(to_host(ConstVectors(there)), to_host(ConstVectors(wanted)));
 }
 
+// The fast multipole method is asked for first nodes only, and as good there as everywhere.
+TEST(SymmetricMobility, SumsByTheFastMultipoleMethod) {
+  using enum SymmetryAxis;
+  const SymmetricSources nodes({"long", {z, z}, {make_tube(200, 12, {1.0, 0.5, 0.0})}});
+  DirectMobility direct(viscosity, Precision::in_double);
+  FmmOptions options;
+  options.tolerance = 1e-5;
+  options.check_every = 1;
+  SymmetricMobility mobility(viscosity, options, nodes.symmetry);
+  const auto found = nodes.compute(mobility), wanted = nodes.compute(direct);
+  EXPECT_TRUE(is_symmetric(nodes.symmetry->orbits(), found));
+  EXPECT_LT(relative_error(found, wanted), 1e-4) << "in the worst node; the tolerance is of all together";
+  const ErrorRecord record = mobility.error_record();
+  EXPECT_EQ(record.n_checks, 1);
+  EXPECT_EQ(record.n_misses, 0);
+  EXPECT_EQ(record.n_approximate, 1);
+  EXPECT_GT(record.largest, 0.0);
+
+  const ConstVectors target = to_device("test::target", {{0.3, 0.1, -0.2}, {0.0, 0.2, 0.0}});
+  const Vectors there("test::there", 2), exact("test::exact", 2);
+  mobility.add_velocity(nodes.sources, target, there);
+  direct.add_velocity(nodes.sources, target, exact);
+  EXPECT_LT(relative_error(to_host(ConstVectors(there)), to_host(ConstVectors(exact))), 1e-4);
+}
+
 // Mirrors halve the pairs and half turns do; nodes on the plane are weighed once.
 TEST(SymmetricMobility, WeighsAsManyTimesFewerPairsAsTheGroupIsLarge) {
   const auto gain_of = [](const SymmetryConfig& symmetry, const FiberConfig& fiber) {

@@ -48,8 +48,10 @@ struct NodeOrbits {
   /// How many times fewer pairs are weighed by orbits than by all nodes.
   double gain() const;
 
-  /// "a half of the nodes and their images, 1.98 times fewer pairs"
-  std::string describe() const;
+  /// Of a sum over images: "by 800 of 1440 nodes and their images, 1.98 times fewer pairs".
+  std::string describe_images() const;
+  /// Of a sum over all nodes: "for 800 of 1440 nodes, of which all others are images".
+  std::string describe_targets() const;
 };
 
 /// @param nodes  [n_nodes] of the fibers, length

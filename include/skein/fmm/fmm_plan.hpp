@@ -15,6 +15,12 @@ enum class FmmPath {
   device,     ///< plain kernels in the execution space; the host has them for tests, and is slow at them
 };
 
+/// Where velocities are asked for.
+enum class FmmTargets {
+  at_sources,  ///< near sources make up most of each velocity
+  apart,       ///< velocities may be all far field, with all of its error
+};
+
 /// What a user may ask of the fast multipole method; 0 leaves a choice to the tables.
 struct FmmOptions {
   double tolerance = 1e-4;  ///< relative error of all velocities together (2-norm)
@@ -24,19 +30,13 @@ struct FmmOptions {
   double min_half_width = 0.0;  ///< of a leaf, length; checked against the floor law
   Precision precision = Precision::automatic;
   bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
-  double direct_speedup = 1.0;       ///< of the direct sums that there are instead, over those of all pairs
   bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
   double singular_cutoff = 0.0;      ///< of the surface operators, relative; a raised order has its own
   int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks
   int n_checked_targets = 64;
+  FmmTargets other_targets = FmmTargets::apart;  ///< where targets lie that are not the sources' own array
   OnMiss on_miss = OnMiss::raise_order;
   FmmPath path = FmmPath::automatic;
-};
-
-/// Where velocities are asked for.
-enum class FmmTargets {
-  at_sources,  ///< near sources make up most of each velocity
-  apart,       ///< velocities may be all far field, with all of its error
 };
 
 /// What an evaluation uses.

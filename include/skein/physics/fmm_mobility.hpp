@@ -2,6 +2,7 @@
 
 #include <skein/fmm/fmm_plan.hpp>
 #include <skein/fmm/fmm_sum.hpp>
+#include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/mobility.hpp>
 
 #include <cstdint>
@@ -20,9 +21,8 @@ namespace skein {
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
-  /// @param direct     sums where that is cheaper; null: a DirectMobility
   /// @throws Error(scene_error) where the options ask for what cannot be delivered.
-  FmmMobility(double viscosity, const FmmOptions& options, std::unique_ptr<Mobility> direct = nullptr);
+  FmmMobility(double viscosity, const FmmOptions& options);
   ~FmmMobility() override;
 
   /// @throws Error(scene_error) where a tolerance is out of reach for these blobs; Error(numerical) where a check finds
@@ -41,6 +41,7 @@ class FmmMobility final : public Mobility {
   const FmmStatistics& statistics() const;
 
  private:
+  FmmTargets place_of(const Sources& sources, const ConstVectors& target) const;
   /// True where direct sums are the rule for so many pairs, before a tree is built.
   bool sums_directly(double n_pairs, FmmTargets targets) const;
   /// Computes the sum of the arrays that were taken; false where a direct sum is cheaper.
@@ -50,7 +51,7 @@ class FmmMobility final : public Mobility {
 
   double viscosity_;
   FmmOptions options_;
-  std::unique_ptr<Mobility> direct_;
+  DirectMobility direct_;
   std::unique_ptr<FmmSum> sum_;
   double pairs_ = 0.0;
   int raised_order_ = 0;            ///< that a check found necessary; 0: as planned

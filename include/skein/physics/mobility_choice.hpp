@@ -16,7 +16,7 @@ struct MobilityChoice {
   Precision precision = Precision::automatic;  ///< of direct sums
   FmmOptions fmm;
   std::string reason;  ///< of method = "auto"; else empty
-  std::string orbits;  ///< whose first nodes direct sums are made for, in words; empty: for all nodes
+  std::string orbits;  ///< by or for which nodes sums are made in a scene with a symmetry, in words; else empty
 };
 
 /// The same on every machine, so that a run can be repeated.

@@ -5,6 +5,13 @@
 
 namespace skein {
 
+/// A group as kernels take it.
+struct SignGroup {
+  static constexpr int most_elements = 8;  ///< there are no more matrices of signs
+  SignMatrix element[most_elements];
+  int n_elements = 0;
+};
+
 /// Orbits of nodes on the device: what takes vectors from first nodes to their images. One thread writes all nodes of
 /// an orbit, so that results do not depend on the number of threads.
 class NodeSymmetry {
@@ -26,14 +33,8 @@ class NodeSymmetry {
   void add_images(const ConstVectors& of_orbit, const Vectors& of_node) const;
 
  private:
-  static constexpr int most_elements = 8;  ///< of a group of sign matrices
-  struct Group {
-    SignMatrix element[most_elements];
-    int n_elements = 0;
-  };
-
   NodeOrbits orbits_;
-  Group group_;
+  SignGroup group_;
   Kokkos::View<int**, Kokkos::LayoutRight, ExecSpace> image_;  ///< [n_orbits, n_elements], as in NodeOrbits
   Kokkos::View<unsigned*, ExecSpace> vanishing_;               ///< [n_orbits], bit c: component c is zero by symmetry
 };

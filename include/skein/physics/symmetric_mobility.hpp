@@ -1,46 +1,50 @@
 #pragma once
 
 #include <skein/core/precision.hpp>
-#include <skein/physics/direct_mobility.hpp>
+#include <skein/fmm/fmm_plan.hpp>
+#include <skein/physics/mobility.hpp>
 #include <skein/physics/node_symmetry.hpp>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace skein {
 
-/// The direct sum of a scene with a symmetry: velocities are found for the first nodes of orbits, from their forces and
-/// the images of these, and mapped to all others. On hosts each pair of a node and an image is weighed once for both;
-/// on devices, of few nodes and of unlike blobs, all nodes are sources and the first ones targets.
+/// Velocities of a scene with a symmetry: they are found for the first nodes of orbits, and mapped to all others.
 ///
-/// Forces must be as symmetric as the nodes are: those of nodes that are not first are not looked at, or make
-/// velocities that are those of a symmetric scene all the same. Where targets are not the nodes, the sum is that of all
-/// nodes.
+/// Direct sums weigh, on hosts and with equal blobs, each pair of a first node and an image once for both. Elsewhere,
+/// and by the fast multipole method, all nodes are sources and the first ones targets. Forces and positions must be as
+/// symmetric as the scene; of those of other nodes than the first it is left open whether they are looked at. Where
+/// targets are not the nodes, velocities are those of all nodes as they are.
 class SymmetricMobility final : public Mobility {
  public:
-  /// @param viscosity  > 0, force * time / length^2
-  /// @param precision  automatic: double
+  /// By direct sums. @param viscosity  > 0, force * time / length^2  @param precision  automatic: double
   SymmetricMobility(double viscosity, Precision precision, std::shared_ptr<const NodeSymmetry> symmetry);
+
+  /// By the fast multipole method. @throws Error(scene_error) where the options ask for what cannot be delivered
+  SymmetricMobility(double viscosity, const FmmOptions& options, std::shared_ptr<const NodeSymmetry> symmetry);
   ~SymmetricMobility() override;
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
-  double pairs() const override { return pairs_ + direct_.pairs(); }
+  double pairs() const override { return pairs_ + elsewhere_->pairs(); }
   std::string describe() const override;
-  void visit_memory(MemoryVisitor&) override {}
+  void visit_memory(MemoryVisitor& visitor) override { at_nodes_->visit_memory(visitor); }
+  ErrorRecord error_record() const override { return at_nodes_->error_record(); }
+  std::vector<std::string> take_messages() override;
 
  private:
-  struct Copies;
+  class ImageSum;
 
+  SymmetricMobility(std::shared_ptr<const NodeSymmetry> symmetry, std::unique_ptr<Mobility> at_nodes,
+                    std::unique_ptr<Mobility> elsewhere);
   /// Each pair of a node and an image once, where that can be. @returns false where not
-  /// A template, so that a GPU build compiles no call of the host's kernel.
-  template <class Space>
-  bool try_images(const Space& space, const Sources& sources);
+  bool try_images(const Sources& sources);
 
-  double viscosity_;
-  Precision precision_;
   std::shared_ptr<const NodeSymmetry> symmetry_;
-  DirectMobility direct_;
-  Vectors first_position_, first_velocity_;  ///< [n_orbits, 3]
-  std::unique_ptr<Copies> copies_;
+  std::unique_ptr<Mobility> at_nodes_, elsewhere_;  ///< sums over all nodes, for first ones and for other targets
+  std::unique_ptr<ImageSum> images_;                ///< null: not by direct sums on a host
+  Vectors first_position_, first_velocity_;         ///< [n_orbits, 3]
   double pairs_ = 0.0;
 };
 
