@@ -1,3 +1,4 @@
+#include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
@@ -27,7 +28,8 @@ SymmetricMobility::SymmetricMobility(std::shared_ptr<const NodeSymmetry> symmetr
       at_nodes_(std::move(at_nodes)),
       elsewhere_(std::move(elsewhere)),
       first_position_("skein::SymmetricMobility::first_position", symmetry_->orbits().n_orbits()),
-      first_velocity_("skein::SymmetricMobility::first_velocity", symmetry_->orbits().n_orbits()) {}
+      first_velocity_("skein::SymmetricMobility::first_velocity", symmetry_->orbits().n_orbits()),
+      before_("skein::SymmetricMobility::before", symmetry_->orbits().n_orbits()) {}
 
 SymmetricMobility::SymmetricMobility(const double viscosity, const Precision precision,
                                      std::shared_ptr<const NodeSymmetry> symmetry)
@@ -54,11 +56,17 @@ void SymmetricMobility::add_velocity(const Sources& sources, const ConstVectors&
                 "positions, forces, blobs and velocities differ in number");
   pairs_ += static_cast<double>(orbits.n_nodes) * static_cast<double>(orbits.n_nodes);
   symmetry_->take_first(sources.position, first_position_);
-  if (!try_images(sources)) {
-    Kokkos::deep_copy(ExecSpace(), first_velocity_, 0.0);
-    at_nodes_->add_velocity(sources, first_position_, first_velocity_);
-  }
+  if (!try_images(sources)) compute_at_first_nodes(sources, velocity);
   symmetry_->add_images(first_velocity_, velocity);
+}
+
+// Added to what there is already: the fast multipole method judges its error against that, and calls the disturbance of
+// fibers at rest in a flow rounding.
+void SymmetricMobility::compute_at_first_nodes(const Sources& sources, const ConstVectors& velocity) {
+  symmetry_->take_first(velocity, before_);
+  Kokkos::deep_copy(ExecSpace(), first_velocity_, before_);
+  at_nodes_->add_velocity(sources, first_position_, first_velocity_);
+  combine<ExecSpace>(ExecSpace(), first_velocity_, {1.0, first_velocity_}, {-1.0, before_});
 }
 
 bool SymmetricMobility::try_images(const Sources& sources) {

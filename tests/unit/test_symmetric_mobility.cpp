@@ -89,6 +89,14 @@ TEST(SymmetricMobility, SumsByTheFastMultipoleMethod) {
   EXPECT_EQ(record.n_approximate, 1);
   EXPECT_GT(record.largest, 0.0);
 
+  // Forces that are rounding beside the velocities are not judged.
+  const Vectors flow = to_device(
+      "test::flow", make_symmetric_vectors(nodes.symmetry->orbits(),
+                                           CounterRandom(1, CounterRandom::Purpose::start_noise, 0), 0, 1e16));
+  mobility.add_velocity(nodes.sources, nodes.sources.position, flow);
+  EXPECT_EQ(mobility.error_record().n_checks, 1);
+  EXPECT_EQ(mobility.error_record().n_approximate, 2);
+
   const ConstVectors target = to_device("test::target", {{0.3, 0.1, -0.2}, {0.0, 0.2, 0.0}});
   const Vectors there("test::there", 2), exact("test::exact", 2);
   mobility.add_velocity(nodes.sources, target, there);

@@ -40,11 +40,13 @@ class SymmetricMobility final : public Mobility {
                     std::unique_ptr<Mobility> elsewhere);
   /// Each pair of a node and an image once, where that can be. @returns false where not
   bool try_images(const Sources& sources);
+  /// Overwrites first_velocity_. @param velocity  that the sum is to be added to
+  void compute_at_first_nodes(const Sources& sources, const ConstVectors& velocity);
 
   std::shared_ptr<const NodeSymmetry> symmetry_;
-  std::unique_ptr<Mobility> at_nodes_, elsewhere_;  ///< sums over all nodes, for first ones and for other targets
-  std::unique_ptr<ImageSum> images_;                ///< null: not by direct sums on a host
-  Vectors first_position_, first_velocity_;         ///< [n_orbits, 3]
+  std::unique_ptr<Mobility> at_nodes_, elsewhere_;    ///< sums over all nodes, for first ones and for other targets
+  std::unique_ptr<ImageSum> images_;                  ///< null: not by direct sums on a host
+  Vectors first_position_, first_velocity_, before_;  ///< [n_orbits, 3]
   double pairs_ = 0.0;
 };
 
