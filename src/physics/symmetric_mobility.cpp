@@ -49,8 +49,8 @@ SymmetricMobility::~SymmetricMobility() = default;
 
 void SymmetricMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   const NodeOrbits& orbits = symmetry_->orbits();
-  if (!are_same_nodes(sources.position, target) || target.extent_int(0) != orbits.n_nodes)
-    return elsewhere_->add_velocity(sources, target, velocity);
+  was_elsewhere_ = !are_same_nodes(sources.position, target) || target.extent_int(0) != orbits.n_nodes;
+  if (was_elsewhere_) return elsewhere_->add_velocity(sources, target, velocity);
   SKEIN_REQUIRE(target.extent(0) == sources.force.extent(0) && target.extent(0) == sources.blob.extent(0) &&
                     target.extent(0) == velocity.extent(0),
                 "positions, forces, blobs and velocities differ in number");
@@ -82,6 +82,7 @@ std::vector<std::string> SymmetricMobility::take_messages() {
 }
 
 std::string SymmetricMobility::describe() const {
+  if (was_elsewhere_) return elsewhere_->describe();
   const NodeOrbits& orbits = symmetry_->orbits();
   return fmt::format("{}, {}", at_nodes_->describe(),
                      images_ != nullptr ? orbits.describe_images() : orbits.describe_targets());

@@ -69,6 +69,7 @@ TEST(SymmetricMobility, AddsToVelocitiesAndServesOtherTargets) {
   mobility.add_velocity(nodes.sources, target, there);
   direct.add_velocity(nodes.sources, target, wanted);
   EXPECT_EQ(to_host(ConstVectors(there)), to_host(ConstVectors(wanted)));
+  EXPECT_EQ(mobility.describe(), direct.describe()) << "no images made this sum";
 }
 
 // The fast multipole method is asked for first nodes only, and as good there as everywhere.

@@ -48,6 +48,7 @@ class SymmetricMobility final : public Mobility {
   std::unique_ptr<ImageSum> images_;                  ///< null: not by direct sums on a host
   Vectors first_position_, first_velocity_, before_;  ///< [n_orbits, 3]
   double pairs_ = 0.0;
+  bool was_elsewhere_ = false;  ///< the last sum, which is the one to describe
 };
 
 }  // namespace skein
