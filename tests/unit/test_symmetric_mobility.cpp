@@ -22,7 +22,7 @@ double relative_error(const std::vector<Vec3>& found, const std::vector<Vec3>& w
   return difference / size;
 }
 
-/// The largest difference of an image from the node where it should be, to the bit.
+/// True where every node has exactly the image of the vector on its orbit's first node.
 bool is_symmetric(const NodeOrbits& orbits, const std::vector<Vec3>& vectors) {
   for (int orbit = 0; orbit < orbits.n_orbits(); ++orbit)
     for (std::size_t element = 0; element < orbits.group.size(); ++element) {
@@ -52,7 +52,7 @@ TEST(SymmetricMobility, AgreesWithTheSumOverAllNodes) {
   }
 }
 
-// What forces of other nodes than the first do to velocities is only that of their images.
+// Velocities are added, not overwritten, and the fluid elsewhere feels all nodes.
 TEST(SymmetricMobility, AddsToVelocitiesAndServesOtherTargets) {
   const SymmetricSources nodes(list_symmetric_cases()[2]);
   DirectMobility direct(viscosity, Precision::in_double);
