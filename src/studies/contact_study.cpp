@@ -20,8 +20,8 @@ constexpr int n_contact_frames = 500;
 constexpr double strength = 11.0;
 
 SceneConfig make_contact_scene(const double length, const int rung) {
-  constexpr double long_fiber = 1.0, short_end = 31.25, long_end = 50.0;
-  SceneConfig scene = make_paper_scene(80, length < long_fiber ? short_end : long_end);
+  constexpr double end = 31.25;  // of the paper's figure 4
+  SceneConfig scene = make_paper_scene(80, end);
   FiberConfig& fiber = scene.fibers[0];
   fiber.sections = static_cast<int>(std::lround(length / make_fibers(scene.fibers)[0].spacing()));
   scene = make_rung_scene(scene, rung);

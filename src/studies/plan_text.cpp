@@ -85,7 +85,10 @@ std::string describe_plan_as_json(const Plan& plan, const PlanRequest& request) 
         .member("nodes_per_section", candidate.nodes_per_section)
         .member("nodes", candidate.n_nodes);
     json.member("error", candidate.error).member("seconds", candidate.seconds).member("verdict", candidate.verdict);
-    json.member("against_finest", candidate.is_against_finest).key("differences").begin_object();
+    json.member("barred", candidate.is_barred)
+        .member("against_finest", candidate.is_against_finest)
+        .key("differences")
+        .begin_object();
     for (const AnswerError& found : candidate.found) json.member(name_of(found.question), found.error);
     json.end_object().key("contact").begin_object().member("depth", candidate.contact.depth);
     json.member("smallest_gap", candidate.contact.smallest_gap).member("first_inside", candidate.contact.first_inside);

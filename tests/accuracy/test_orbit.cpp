@@ -99,8 +99,8 @@ TEST(OrbitSlow, EulerConvergesToRkc2WithFirstOrder) {
   std::printf("difference to RKC2 at t = 6: %.3e L at dt = 1.6e-4, %.3e L at dt = 1e-4, order %.3f\n", coarse, fine,
               std::log(coarse / fine) / std::log(1.6));
   EXPECT_LT(fine, 3e-3);
-  // First order, up to what RKC2 itself is off by, a few times its tolerance. A difference that did not fall with dt, or
-  // fell with its square, would miss this bound by a factor of ten.
+  // First order, up to what RKC2 itself is off by, a few times its tolerance. A difference that did not fall with dt,
+  // or fell with its square, would miss this bound by a factor of ten.
   EXPECT_NEAR(coarse, 1.6 * fine, 0.06 * coarse);
   EXPECT_GT(coarse, 30.0 * fiber.scene.time.tolerance) << "too close to tell an order";
 }

@@ -6,6 +6,7 @@
 
 #include "studies/paper_scenes.hpp"
 #include "studies/rung.hpp"
+#include "studies/rung_name.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,12 +31,15 @@ TEST(Rung, KeepsLengthRadiusAndHowTheFluidTurnsAndBendsIt) {
       EXPECT_EQ(rung.config.radius, fine.radius);
       EXPECT_NEAR(rung.length(), make_fibers({fine})[0].length(), 1e-12);
       EXPECT_LT(std::abs(fit.aspect_ratio_error), 1e-5);
-      if (sections >= 80 && nodes <= 12) EXPECT_GT(fit.fiber.blob, fine.blob) << nodes;
+      if (sections >= 80 && nodes <= 12) {
+        EXPECT_GT(fit.fiber.blob, fine.blob) << nodes;
+      }
       // Of the whole fiber, not the piece that was fitted; the coarser tube ends earlier by half a spacing.
       const RigidTubeDrag found = measure_rigid_tube(rung, 1.0);
-      if (sections >= 80)
+      if (sections >= 80) {
         EXPECT_NEAR(found.effective_aspect_ratio() / drag.effective_aspect_ratio(), 1.0, 0.02) << nodes;
-      if (sections >= 80) EXPECT_NEAR(found.transverse / drag.transverse, 1.0, 0.04) << nodes;
+        EXPECT_NEAR(found.transverse / drag.transverse, 1.0, 0.04) << nodes;
+      }
       // What a flow bends it with grows with the drag.
       EXPECT_NEAR(relative_stiffness(fit.fiber, fine) / (found.turning / drag.turning), 1.0,
                   sections > 300 ? 0.01 : 1e-3)
