@@ -48,8 +48,11 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
                                     : "only the fluid between them holds them off; a [repulsion] would, too"));
   if (record.nodes_inside > 0)
     meet(penetration, record.depth > worst_[penetration] * blob_, record.depth / blob_,
-         fmt::format("{} nodes are inside of another surface, the deepest by {:.3g}; the blob is {:.3g}",
-                     record.nodes_inside, record.depth, blob_));
+         fmt::format("{} nodes are inside of another surface, the deepest by {:.3g}; the blob is {:.3g}; {}",
+                     record.nodes_inside, record.depth, blob_,
+                     has_repulsion_
+                         ? "a larger repulsion.strength keeps surfaces apart"
+                         : "with more nodes on a section it is less deep, a [repulsion] keeps surfaces apart"));
   most_inside_ = std::max(most_inside_, record.nodes_inside);
   if (const auto n_crossings = static_cast<double>(record.crossings); n_crossings > worst_[crossing])
     meet(crossing, true, n_crossings,
