@@ -51,8 +51,8 @@ class Planner {
   };
 
   /// From the lowest rung to the first that is good enough. The difference from the next one tells a rung that is not;
-  /// one that may be is taken where the table's error of the next still fits in, and is set against the finest tube
-  /// where there is time for that: what coarse tubes have in common, no difference between them shows.
+  /// one that may be is taken where the table's error of the next still fits in, and is set against a finer one else:
+  /// what coarse tubes have in common, no difference between them shows.
   /// @param known  a pilot of the candidate `coarsest` that has run already
   void climb(const std::size_t coarsest, std::optional<Pilot> known) {
     std::optional<Climbed> below;
@@ -83,8 +83,7 @@ class Planner {
   }
 
   std::optional<Pilot> run_candidate(const std::size_t i) {
-    const bool is_finest = i + 1 == plan_.candidates.size();
-    if (is_finest && reference_ && reference_->is_whole()) return reference_;
+    if (i == reference_index_ && reference_ && reference_->is_whole()) return reference_;
     return pilots_.run(plan_.candidates[i].scene, describe_rung(plan_.candidates[i].nodes_per_section));
   }
 
@@ -105,6 +104,7 @@ class Planner {
   bool judge(const Climbed& lower, const std::size_t above, const Pilot& better) {
     Candidate& candidate = plan_.candidates[lower.index];
     candidate.found = compare_answers(lower.pilot, better, pilots_.compared());
+    candidate.compared_with = plan_.candidates[above].nodes_per_section;
     const double difference = find_largest_error(candidate.found);
     // Phases drift with time: what pilots did not reach is taken to go on as it did.
     const double rest = plan_.end / plan_.pilot_end;
@@ -116,8 +116,7 @@ class Planner {
       candidate.verdict = "contact fails";
       return false;
     }
-    if (!(candidate.error <= request_.tolerance) && difference * rest + plan_.time_error <= request_.tolerance)
-      compare_with_finest(candidate, lower.pilot);
+    if (!(candidate.error <= request_.tolerance)) compare_with_reference(candidate, lower.pilot, above + 1, difference);
     if (candidate.error <= request_.tolerance) return true;
     Question worst = Question::shape;
     find_largest_error(candidate.found, &worst);
@@ -125,25 +124,41 @@ class Planner {
     return false;
   }
 
-  /// Once the finest tube has run for a share of the time that pilots may take, errors are measured.
-  void compare_with_finest(Candidate& candidate, const Pilot& run) {
-    const Candidate& finest = plan_.candidates.back();
-    if (!was_compared_ && !finest.is_barred) {
-      was_compared_ = true;
-      constexpr double share_of_pilots = 0.25;
-      const double seconds = share_of_pilots * request_.max_seconds;
-      reference_ = pilots_.run(
-          finest.scene, fmt::format("{}, for {:.3g} s at most", describe_rung(finest.nodes_per_section), seconds),
-          seconds);
-      if (reference_ && !reference_->failure.empty()) reference_.reset();
-    }
-    if (!reference_) return;
+  /// Measures a rung against the lowest one above it whose own error, by the table, leaves room for the difference that
+  /// was found, or else against the finest, which runs for a share of the time that pilots may take.
+  /// @param difference  of the candidate from its neighbour
+  void compare_with_reference(Candidate& candidate, const Pilot& run, const std::size_t above,
+                              const double difference) {
+    const auto& all = plan_.candidates;
+    const auto leaves_room = [&](const Candidate& rung) {
+      const double rest = plan_.end / plan_.pilot_end;
+      return !rung.is_barred &&
+             (difference + find_ladder_error(rung.nodes_per_section)) * rest + plan_.time_error <= request_.tolerance;
+    };
+    const auto rung = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(above), all.end(), leaves_room);
+    if (rung == all.end()) return;
+    use_reference(static_cast<std::size_t>(rung - all.begin()));
+    if (reference_) measure(candidate, run);
+  }
+
+  void use_reference(const std::size_t index) {
+    if (index <= reference_index_) return;  // what was found, or not, is good enough
+    reference_index_ = index;
+    constexpr double share_of_pilots = 0.25;
+    const double seconds = share_of_pilots * request_.max_seconds;
+    const Candidate& rung = plan_.candidates[index];
+    reference_ = pilots_.run(
+        rung.scene, fmt::format("{}, for {:.3g} s at most", describe_rung(rung.nodes_per_section), seconds), seconds);
+    if (reference_ && !reference_->failure.empty()) reference_.reset();
+  }
+
+  void measure(Candidate& candidate, const Pilot& run) {
+    const int rung = plan_.candidates[reference_index_].nodes_per_section;
     plan_.pilot_end = std::min(plan_.pilot_end, reference_->end());
     candidate.found = compare_answers(run, *reference_, pilots_.compared());
-    candidate.is_against_finest = true;
+    candidate.compared_with = rung;
     const double rest = plan_.end / plan_.pilot_end;
-    candidate.error =
-        (find_largest_error(candidate.found) + find_ladder_error(finest.nodes_per_section)) * rest + plan_.time_error;
+    candidate.error = (find_largest_error(candidate.found) + find_ladder_error(rung)) * rest + plan_.time_error;
   }
 
   /// Where one rung is not good enough, its neighbour above seems so, and numbers of nodes lie between: the first of
@@ -160,7 +175,7 @@ class Planner {
       between.scene.time.tolerance = plan_.time_tolerance;
       auto pilot = pilots_.run(between.scene, describe_rung(rung));
       if (!pilot || !note(between, *pilot)) continue;
-      compare_with_finest(between, *pilot);
+      measure(between, *pilot);
       if (!(between.error <= request_.tolerance)) continue;
       plan_.candidates.insert(plan_.candidates.begin() + static_cast<std::ptrdiff_t>(above), std::move(between));
       return choose({above, std::move(*pilot)});
@@ -184,8 +199,8 @@ class Planner {
   const PlanRequest& request_;
   PlanPilots pilots_;
   std::optional<Pilot> chosen_;     ///< of the chosen candidate
-  std::optional<Pilot> reference_;  ///< of the finest tube, as far as it got; none where that tells nothing
-  bool was_compared_ = false;       ///< with it, or tried
+  std::optional<Pilot> reference_;  ///< what others were measured against, as far as it got; none where that is nothing
+  std::size_t reference_index_ = 0;  ///< of the candidates; 0: none was asked for
   Plan plan_;
 };
 

@@ -26,10 +26,10 @@ struct Candidate {
   double error = 0.0;              ///< predicted; not a number where nothing is known
   double seconds = 0.0;            ///< predicted wall time
   std::string verdict;             ///< why it is taken, or is not
-  std::vector<AnswerError> found;  ///< against the next rung or the finest, where pilots ran
-  bool is_against_finest = false;
-  bool is_barred = false;  ///< it cannot stand for the scene's fibers
-  ContactRecord contact;   ///< of its pilot, where one ran
+  std::vector<AnswerError> found;  ///< against another rung, where pilots ran
+  int compared_with = 0;           ///< that rung
+  bool is_barred = false;          ///< it cannot stand for the scene's fibers
+  ContactRecord contact;           ///< of its pilot, where one ran
 
   bool bends() const { return !is_barred && nodes_per_section > 0; }
 };
@@ -49,7 +49,7 @@ struct Plan {
 
 /// Finds it by pilot runs of the scene, from the coarsest rung on. Each is compared with the one above; one that may do
 /// is taken where the error of the one above, by the table of convergence (ladder_table.hpp), fits in besides, or else
-/// set against the finest tube, for a quarter of the pilots' time at most. Steps are as long as a quarter of the
+/// set against a finer one, which runs for a quarter of the pilots' time at most. Steps are as long as a quarter of the
 /// tolerance lets them be, found on the lowest rung that bends. Where a rung does and the one below does
 /// not, other numbers of nodes between them are tried. Needs Kokkos.
 /// @param scene  its fibers are as written

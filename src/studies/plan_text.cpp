@@ -30,8 +30,7 @@ std::string explain_choice(const Plan& plan, const PlanRequest& request) {
     const Candidate& chosen = plan.candidates[plan.chosen];
     std::string text = fmt::format("{} is the cheapest whose answers stay within {:g} %",
                                    describe_rung(chosen.nodes_per_section), percent);
-    if (!chosen.found.empty())
-      text += chosen.is_against_finest ? ", set against the finest tube" : ", by the difference from the next rung";
+    if (!chosen.found.empty()) text += ", by the difference from " + describe_rung(chosen.compared_with);
     return text;
   }
   const ContactRecord& contact = plan.candidates.back().contact;
@@ -57,8 +56,8 @@ std::string describe_plan(const Plan& plan, const PlanRequest& request) {
         fmt::format("{:<18} {:>9} {:>12} {:>12}  {}\n", describe_rung(candidate.nodes_per_section).c_str(),
                     candidate.n_nodes, in_percent(candidate.error), in_seconds(candidate.seconds), candidate.verdict);
     for (const AnswerError& found : candidate.found)
-      text += fmt::format("    {} differs by {} from the {}\n", name_of(found.question), in_percent(found.error),
-                          candidate.is_against_finest ? "finest" : "next");
+      text += fmt::format("    {} differs by {} from {}\n", name_of(found.question), in_percent(found.error),
+                          describe_rung(candidate.compared_with));
     if (knows_contact(candidate)) text += fmt::format("    {}\n", describe_contact(candidate.contact));
   }
   text += fmt::format("steps: time.tolerance {:.3g}, which changes answers by {}\n", plan.time_tolerance,
@@ -85,10 +84,9 @@ std::string describe_plan_as_json(const Plan& plan, const PlanRequest& request) 
         .member("nodes_per_section", candidate.nodes_per_section)
         .member("nodes", candidate.n_nodes);
     json.member("error", candidate.error).member("seconds", candidate.seconds).member("verdict", candidate.verdict);
-    json.member("barred", candidate.is_barred)
-        .member("against_finest", candidate.is_against_finest)
-        .key("differences")
-        .begin_object();
+    json.member("barred", candidate.is_barred);
+    if (!candidate.found.empty()) json.member("compared_with", name_of_rung(candidate.compared_with));
+    json.key("differences").begin_object();
     for (const AnswerError& found : candidate.found) json.member(name_of(found.question), found.error);
     json.end_object().key("contact").begin_object().member("depth", candidate.contact.depth);
     json.member("smallest_gap", candidate.contact.smallest_gap).member("first_inside", candidate.contact.first_inside);
