@@ -6,14 +6,14 @@ packages=(
   # build
   g++ cmake ninja-build make git ccache
   # libraries
-  libeigen3-dev libhdf5-dev libopenmpi-dev libcli11-dev libtomlplusplus-dev libfmt-dev libxxhash-dev
+  libeigen3-dev libhdf5-dev libcli11-dev libtomlplusplus-dev libfmt-dev libxxhash-dev
   # tests and benchmarks
   libgtest-dev librapidcheck-dev libbenchmark-dev
-  # plots, and checks of the files written
-  python3 python3-h5py python3-matplotlib python3-numpy
   # the way to Kokkos' source
   dpkg-dev xz-utils
 )
+# Plots, and checks of the files written: installed while Kokkos is fetched and built, which needs none of them.
+plot_packages=(python3 python3-h5py python3-matplotlib python3-numpy)
 # What only running the tests needs; ParaView brings VTK with its XDMF readers, which python3-vtk9 lacks. Other versions of
 # clang-format format otherwise.
 test_packages=(python3-paraview strace clang-format-14 clang-tidy-14)
@@ -68,25 +68,28 @@ update_package_lists() {
 
 missing_packages() {
   local package
-  for package in "${packages[@]}"; do
+  for package in "$@"; do
     [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
   done
 }
 
+has_lists=false
+# install_packages NAME...
 install_packages() {
   if ! command -v apt-get >/dev/null; then
-    say "No apt-get here. Needed, by their Debian names: ${packages[*]}"
+    say "No apt-get here. Needed, by their Debian names: $*"
     return
   fi
   local missing
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "$@")
   if ((${#missing[@]} == 0)); then
-    say "Packages: all ${#packages[@]} are installed."
+    say "Packages: all $# are installed."
     return
   fi
   can_be_root || fail "neither root nor sudo is available to install the missing packages: ${missing[*]}"
   say "Packages: installing ${missing[*]}"
-  update_package_lists
+  $has_lists || update_package_lists
+  has_lists=true
   as_root apt-get install -qq -y --no-install-recommends -o DPkg::Lock::Timeout=900 "${missing[@]}" >&2
 }
 
@@ -308,7 +311,9 @@ cache=${XDG_CACHE_HOME:-~/.cache}/skein
 staging=
 trap 'rm -rf "$scratch" ${staging:+"$staging"}' EXIT
 
-install_packages
+install_packages "${packages[@]}"
+install_packages "${plot_packages[@]}" &
+plots=$!
 
 case $backend in
   any) wanted="OpenMP, CUDA or HIP" ;;
@@ -330,4 +335,5 @@ else
   fi
 fi
 
+wait "$plots" || fail "the packages that draw plots are not installed."
 if $only_prefix; then echo "$kokkos"; else printf 'export SKEIN_KOKKOS_PREFIX=%q\n' "$kokkos"; fi

@@ -70,14 +70,14 @@ int bench_plans(const BenchOptions& options) {
   if (options.scenes.empty()) throw Error(ExitCode::usage, "bench plan needs scenes: --scene FILE, once for each");
   const Runtime runtime(options.threads);
   print_result(fmt::format("# {}\n{:<26} {:>9} {:>6} {:>10} {:>10} {:>9} {:>9}\n", describe_backend(), "scene",
-                           "tolerance", "nodes", "predicted", "measured", "seconds", "cheapest"));
+                           "tolerance", "rung", "predicted", "measured", "seconds", "cheapest"));
   for (const std::string& file : options.scenes) {
     const PlacedScene placed = read_placed_scene(file, {});
     for (const PlanCheck& check : check_plans(placed.config, {}, options.tolerances, [](const std::string&) {}))
       print_result(fmt::format("{:<26} {:>9} {:>6} {:>10} {:>10} {:>9.3g} {:>9.3g}\n",
-                               std::filesystem::path(file).stem().string(), in_percent(check.tolerance), check.chosen,
-                               in_percent(check.predicted_error), in_percent(check.measured_error), check.seconds,
-                               check.cheapest_seconds));
+                               std::filesystem::path(file).stem().string(), in_percent(check.tolerance),
+                               check.chosen ? name_of_rung(*check.chosen) : "none", in_percent(check.predicted_error),
+                               in_percent(check.measured_error), check.seconds, check.cheapest_seconds));
     std::fflush(stdout);
   }
   return 0;
@@ -138,7 +138,7 @@ Verb make_bench_verb() {
           "  skein bench ladder\n"
           "  skein bench ladder -o short --lengths 0.139,0.196\n"
           "  skein bench plan --scene configs/tumbling.toml --scene configs/buckling_C.toml\n"
-          "The ladder of all four lengths takes half an hour on two cores, of the first three a third of that.",
+          "The ladder of all four lengths takes a quarter of an hour on two cores, of the first two two minutes.",
           [options] { return bench(*options); }};
 }
 

@@ -5,6 +5,7 @@
 #include <skein/io/array_file.hpp>
 
 #include "studies/paper_scenes.hpp"
+#include "studies/reference_run.hpp"
 #include "studies/rung.hpp"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ SceneConfig make_ladder_scene(const double length, const int nodes_per_section) 
   fiber.sections = static_cast<int>(std::lround(length / make_fibers(scene.fibers)[0].spacing()));
   scene = make_rung_scene(scene, nodes_per_section);
   scene.time.tolerance = 3e-5;
-  scene.hydrodynamics.tolerance = 1e-6;
+  scene.hydrodynamics.tolerance = 1e-5;
   return scene;
 }
 
@@ -66,7 +67,9 @@ std::vector<LadderPoint> measure_ladder(const LadderStudy& study,
   for (const double length : study.lengths) {
     std::optional<Pilot> finest;
     for (const int rung : study.rungs) {
-      Pilot pilot = run_pilot(make_ladder_scene(length, rung), n_frames, std::numeric_limits<double>::infinity());
+      const SceneConfig scene = make_ladder_scene(length, rung);
+      Pilot pilot =
+          finest ? run_pilot(scene, n_frames, std::numeric_limits<double>::infinity()) : run_reference(scene, n_frames);
       if (!pilot.failure.empty()) throw Error(ExitCode::numerical, pilot.failure);
       LadderPoint point = make_point(length, rung, pilot);
       if (finest) {

@@ -27,7 +27,7 @@ struct LadderPoint {
 };
 
 /// Runs them all, each length to the time of the paper's figures, or to where its ends first touch its sides. Steps
-/// have a third of the default tolerance and sums 1e-6, so that the nodes alone make the difference. Needs Kokkos.
+/// have a third of the default tolerance and sums 1e-5, so that the nodes alone make the difference. Needs Kokkos.
 /// @param report  called with each point
 std::vector<LadderPoint> measure_ladder(const LadderStudy& study,
                                         const std::function<void(const LadderPoint&)>& report);

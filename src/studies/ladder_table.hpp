@@ -6,7 +6,7 @@
 namespace skein {
 
 /// Errors of tubes of so many nodes, 1 being the chain, on a section against those of 24, the paper's fibers in shear;
-/// by `skein bench ladder`, whose table is perf/ladder.csv.
+/// which are the truth here; by `skein bench ladder`, whose table is perf/ladder.csv.
 struct LadderRow {
   int nodes_per_section;
   double error;  ///< the largest of shape (over the length), half period, hook radius and snaking speed

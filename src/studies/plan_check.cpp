@@ -1,9 +1,9 @@
 #include "studies/plan_check.hpp"
 
 #include <skein/physics/scene_times.hpp>
-#include <skein/physics/symmetry_check.hpp>
 
-#include "studies/ladder_table.hpp"
+#include "studies/plan_candidates.hpp"
+#include "studies/reference_run.hpp"
 #include "studies/rung.hpp"
 #include "studies/rung_name.hpp"
 
@@ -28,7 +28,7 @@ std::vector<PlanCheck> check_plans(const SceneConfig& asked, const PlanRequest& 
   SceneConfig finest = make_rung_scene(scene, finest_rung);
   finest.time.tolerance /= 3.0;
   say("the finest tube");
-  const Pilot reference = run_pilot(finest, n_checked_frames, unlimited);
+  const Pilot reference = run_reference(finest, n_checked_frames);
   const auto measure = [&](const SceneConfig& way) {
     const Pilot pilot = run_pilot(way, n_checked_frames, unlimited);
     const double error =
@@ -36,18 +36,17 @@ std::vector<PlanCheck> check_plans(const SceneConfig& asked, const PlanRequest& 
     return Measured{error, pilot.seconds};
   };
   std::vector<Measured> rungs;
-  for (const LadderRow& row : list_ladder()) {
-    const SceneConfig rung = make_rung_scene(scene, row.nodes_per_section);
-    if (!find_symmetry_problems(rung).empty()) continue;
-    say("a rung");
-    rungs.push_back(measure(rung));
+  for (const Candidate& rung : list_candidates(scene)) {
+    if (rung.is_barred) continue;
+    say("pilot: " + describe_rung(rung.nodes_per_section));
+    rungs.push_back(measure(rung.scene));
   }
   std::vector<PlanCheck> checks;
   for (const double tolerance : tolerances) {
     PlanRequest once = request;
     once.tolerance = tolerance;
     const Plan plan = make_plan(scene, once, say);
-    PlanCheck check{tolerance, 0, unlimited, unlimited, 0.0, unlimited};
+    PlanCheck check{tolerance, std::nullopt, unlimited, unlimited, 0.0, unlimited};
     for (const Measured& rung : rungs)
       if (rung.error <= tolerance && rung.seconds < check.cheapest_seconds) check.cheapest_seconds = rung.seconds;
     if (plan.chosen >= 0) {

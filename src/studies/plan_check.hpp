@@ -3,6 +3,7 @@
 #include "studies/plan.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace skein {
 /// What a plan promised and what came of it.
 struct PlanCheck {
   double tolerance = 0.0;
-  int chosen = 0;                 ///< nodes on a section; 0: none was good enough
+  std::optional<int> chosen;      ///< rung; none: none was good enough
   double predicted_error = 0.0;   ///< infinite for none
   double measured_error = 0.0;    ///< against the finest tube
   double seconds = 0.0;           ///< wall time of the chosen way

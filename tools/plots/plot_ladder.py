@@ -42,8 +42,9 @@ def draw_length(panel, rows, table):
     panel.plot(seconds[front][order], np.fmax(worst[front][order], LEAST), "-", color="#888888", linewidth=0.9, zorder=0,
                label="none is cheaper and better")
     for x, y, n in zip(seconds, worst, nodes):
-        panel.annotate(f"{n}", (x, max(y, LEAST)), textcoords="offset points", xytext=(0, 6), ha="center", fontsize=7)
+        panel.annotate("chain" if n == 1 else f"{n}", (x, max(y, LEAST)), textcoords="offset points", xytext=(0, 6), ha="center", fontsize=7)
     panel.set_xscale("log")
+    panel.margins(x=0.12)
     panel.set_yscale("log")
     panel.grid(True, color="#e4e4e4", linewidth=0.6)
     panel.set_axisbelow(True)
@@ -62,7 +63,11 @@ def draw(table):
         panel.set_title(f"$L = {length:g}$, against {reference.max():.0f} nodes")
     panels[0, 0].set_ylabel("error")
     figure.get_layout_engine().set(rect=(0.0, 0.13, 1.0, 0.87))
-    figure.legend(*panels[0, -1].get_legend_handles_labels(), loc="lower center", ncol=3, frameon=False)
+    # Not every fiber answers every question.
+    handles = {label: handle for panel in panels[0] for handle, label in zip(*panel.get_legend_handles_labels())}
+    labels = [label for _, _, label in SERIES if label in handles]
+    labels += [label for label in handles if label not in labels]
+    figure.legend([handles[label] for label in labels], labels, loc="lower center", ncol=3, frameon=False)
     return figure
 
 
