@@ -125,8 +125,9 @@ std::vector<AnswerError> compare_answers(const Pilot& run, const Pilot& better, 
   std::vector<AnswerError> errors;
   for (const Question question : asked) {
     if (question == Question::contact) {
-      const ContactRecord contact = record_contact(run.analysis);
-      errors.push_back({question, contact.has_crossed() ? no_answer : contact.depth});
+      const ContactRecord found = record_contact(run.analysis), known = record_contact(better.analysis);
+      errors.push_back(
+          {question, found.has_crossed() || known.has_crossed() ? no_answer : std::abs(found.depth - known.depth)});
       continue;
     }
     std::optional<double> largest;

@@ -15,7 +15,7 @@ enum class Question {
   hook_radius,    ///< relative
   snaking_speed,  ///< relative
   curvature_max,  ///< over the whole run, relative
-  contact,        ///< how deep surfaces are pressed into each other, over the radius: of the run alone
+  contact,        ///< how deep surfaces are pressed into each other, difference over the radius
 };
 const std::vector<Question>& list_questions();
 const char* name_of(Question question);

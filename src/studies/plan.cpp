@@ -69,10 +69,9 @@ class Planner {
       if (plan_.chosen >= 0) return;
       below = Climbed{i, std::move(*pilot)};
     }
-    // The finest tube is judged by the table alone, and by its own contact.
+    // The finest tube is judged by the table alone.
     Candidate& finest = plan_.candidates.back();
     if (!std::isfinite(finest.error)) finest.error = find_ladder_error(finest.nodes_per_section) + plan_.time_error;
-    if (pilots_.asks_contact()) finest.error = std::max(finest.error, finest.contact.depth);
     if (finest.error <= request_.tolerance && below && below->index + 1 == plan_.candidates.size())
       choose(std::move(*below));
   }
@@ -87,15 +86,21 @@ class Planner {
     return pilots_.run(plan_.candidates[i].scene, describe_rung(plan_.candidates[i].nodes_per_section));
   }
 
-  /// @returns false where the pilot is no answer: it broke off, or fibers crossed, after which it answers another
-  /// question
+  /// @returns false where the pilot is no answer: it broke off, fibers crossed, after which it answers another
+  /// question, or surfaces met that are asked to stay apart
   bool note(Candidate& candidate, const Pilot& pilot) {
-    plan_.pilot_end = std::min(plan_.pilot_end, pilot.end());
     candidate.seconds = pilot.seconds * scene_.time.end / pilot.end();
     candidate.contact = record_contact(pilot.analysis);
-    if (pilot.failure.empty() && !candidate.contact.has_crossed()) return true;
+    const ContactRecord& contact = candidate.contact;
+    if (!pilot.failure.empty())
+      candidate.verdict = "breaks off: " + pilot.failure;
+    else if (contact.has_crossed() || (pilots_.asks_contact() && contact.depth > request_.tolerance))
+      candidate.verdict = describe_contact(contact);
+    if (candidate.verdict.empty()) {
+      plan_.pilot_end = std::min(plan_.pilot_end, pilot.end());
+      return true;
+    }
     candidate.error = std::numeric_limits<double>::infinity();
-    candidate.verdict = pilot.failure.empty() ? describe_contact(candidate.contact) : "breaks off: " + pilot.failure;
     return false;
   }
 
@@ -103,7 +108,7 @@ class Planner {
   /// @returns true if the lower rung is good enough
   bool judge(const Climbed& lower, const std::size_t above, const Pilot& better) {
     Candidate& candidate = plan_.candidates[lower.index];
-    candidate.found = compare_answers(lower.pilot, better, pilots_.compared());
+    candidate.found = pilots_.list_differences(lower.pilot, better);
     candidate.compared_with = plan_.candidates[above].nodes_per_section;
     const double difference = find_largest_error(candidate.found);
     // Phases drift with time: what pilots did not reach is taken to go on as it did.
@@ -111,11 +116,6 @@ class Planner {
     const double table = find_ladder_error(plan_.candidates[above].nodes_per_section);
     candidate.error = (difference + table) * rest + plan_.time_error;
     if (!std::isfinite(plan_.candidates[above].error)) plan_.candidates[above].error = table * rest + plan_.time_error;
-    if (pilots_.asks_contact() && candidate.contact.depth > request_.tolerance) {
-      candidate.error = std::max(candidate.error, candidate.contact.depth);
-      candidate.verdict = "contact fails";
-      return false;
-    }
     if (!(candidate.error <= request_.tolerance)) compare_with_reference(candidate, lower.pilot, above + 1, difference);
     if (candidate.error <= request_.tolerance) return true;
     Question worst = Question::shape;
@@ -155,7 +155,7 @@ class Planner {
   void measure(Candidate& candidate, const Pilot& run) {
     const int rung = plan_.candidates[reference_index_].nodes_per_section;
     plan_.pilot_end = std::min(plan_.pilot_end, reference_->end());
-    candidate.found = compare_answers(run, *reference_, pilots_.compared());
+    candidate.found = pilots_.list_differences(run, *reference_);
     candidate.compared_with = rung;
     const double rest = plan_.end / plan_.pilot_end;
     candidate.error = (find_largest_error(candidate.found) + find_ladder_error(rung)) * rest + plan_.time_error;
@@ -168,7 +168,7 @@ class Planner {
     const int first = plan_.candidates[lower.index].nodes_per_section + 1;
     const int last = plan_.candidates[above].nodes_per_section - 1;
     if (first <= chain_rung + 1 || first > last || !reference_) return;
-    if (find_largest_error(compare_answers(better, *reference_, pilots_.compared())) > request_.tolerance) return;
+    if (pilots_.compare(better, *reference_) > request_.tolerance) return;
     for (int rung = first; rung <= last; ++rung) {
       Candidate between = make_candidate(scene_, rung);
       if (between.is_barred) continue;

@@ -15,9 +15,10 @@ constexpr int n_intervals = 400;  ///< of a pilot's frames: snaking is measured 
 }  // namespace
 
 PlanPilots::PlanPilots(const double end, const PlanRequest& request, const std::function<void(const std::string&)>& say)
-    : end_(end), request_(request), say_(say) {
-  for (const Question question : request.asked)
-    if (question != Question::contact) compared_.push_back(question);
+    : end_(end), request_(request), say_(say) {}
+
+bool PlanPilots::asks_contact() const {
+  return std::find(request_.asked.begin(), request_.asked.end(), Question::contact) != request_.asked.end();
 }
 
 std::optional<Pilot> PlanPilots::run(const SceneConfig& scene, const std::string& words, const double max_seconds) {
@@ -27,6 +28,7 @@ std::optional<Pilot> PlanPilots::run(const SceneConfig& scene, const std::string
   Pilot pilot = run_pilot(scene, n_intervals, seconds);
   constexpr double least_share = 0.1;
   if (pilot.end() < least_share * end_) return std::nullopt;
+  if (pilot.is_late && asks_contact()) return std::nullopt;  // surfaces may meet at any time
   return pilot;
 }
 

@@ -20,19 +20,22 @@ class PlanPilots {
   PlanPilots(double end, const PlanRequest& request, const std::function<void(const std::string&)>& say);
 
   /// @param max_seconds  of wall time, besides what is left for all
-  /// @returns none where there is no time for it, or it did not get past a tenth of the scene's time
+  /// @returns none where there is no time for it, or it did not get past a tenth of the scene's time, or, where contact
+  /// is asked for, not to its end
   std::optional<Pilot> run(const SceneConfig& scene, const std::string& words,
                            double max_seconds = std::numeric_limits<double>::infinity());
 
   double seconds_left() const { return request_.max_seconds - seconds_since(start_); }
   double seconds() const { return seconds_since(start_); }
 
-  /// The largest of the answers' differences, which contact is not among: it is judged by each rung alone.
-  double compare(const Pilot& run, const Pilot& better) const {
-    return find_largest_error(compare_answers(run, better, compared_));
+  std::vector<AnswerError> list_differences(const Pilot& run, const Pilot& better) const {
+    return compare_answers(run, better, request_.asked);
   }
-  const std::vector<Question>& compared() const { return compared_; }
-  bool asks_contact() const { return compared_.size() < request_.asked.size(); }
+  double compare(const Pilot& run, const Pilot& better) const {
+    return find_largest_error(list_differences(run, better));
+  }
+  /// Then a rung is also judged by how deep surfaces are in its own pilot, all of it.
+  bool asks_contact() const;
 
   const PlanRequest& request() const { return request_; }
 
@@ -41,7 +44,6 @@ class PlanPilots {
   const PlanRequest& request_;
   const std::function<void(const std::string&)>& say_;
   WallClock::time_point start_ = WallClock::now();
-  std::vector<Question> compared_;
 };
 
 /// The longest steps whose error is a quarter of the tolerance, by one candidate.

@@ -58,7 +58,8 @@ std::string describe_plan(const Plan& plan, const PlanRequest& request) {
     for (const AnswerError& found : candidate.found)
       text += fmt::format("    {} differs by {} from {}\n", name_of(found.question), in_percent(found.error),
                           describe_rung(candidate.compared_with));
-    if (knows_contact(candidate)) text += fmt::format("    {}\n", describe_contact(candidate.contact));
+    if (knows_contact(candidate) && candidate.verdict != describe_contact(candidate.contact))
+      text += fmt::format("    {}\n", describe_contact(candidate.contact));
   }
   text += fmt::format("steps: time.tolerance {:.3g}, which changes answers by {}\n", plan.time_tolerance,
                       in_percent(plan.time_error));

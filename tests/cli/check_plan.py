@@ -117,6 +117,20 @@ class Planning(InFreshFolder):
             self.assertIn("no partner", rung["verdict"])
         self.assertIn('half_turn = "z"', (self.folder / "planned.toml").read_text())
 
+    def test_surfaces_that_are_pressed_into_each_other_are_no_answer_to_contact(self):
+        """A fiber this soft folds; the chain in its place overlaps itself, tubes of it do not, and rigid it would not fold."""
+        soft = ("--set", "fiber.nodes_per_section=6", "--set", "fiber.sections=60", "--set",
+                "fiber.spring_stiffness=4e-4", "--set", "fiber.blob=0.00285")
+        code, plan = self.plan("--tolerance", "0.1", "--for", "contact", *soft)
+        self.assertEqual(code, DONE)
+        self.assertEqual(plan["chosen"], 4)
+        rigid, chain, tube = plan["candidates"][:3]
+        self.assertEqual(rigid["verdict"], "not looked at")
+        self.assertGreater(chain["contact"]["depth"], 0.1)
+        self.assertGreater(chain["contact"]["first_inside"], 3.0)
+        self.assertIn("pressed into each other", chain["verdict"])
+        self.assertEqual(tube["contact"]["depth"], 0.0)
+
     def test_nothing_is_left_behind(self):
         before = self.snapshot(self.folder)
         self.plan("--tolerance", "0.1", "--set", "time.end=1.0")
