@@ -49,7 +49,8 @@ class Mapper {
       const FiberMap found = find_map(fiber);
       if (found.fiber < 0) return {{}, describe_fault(fiber)};
       for (int node = 0; node < fiber.n_nodes(); ++node)
-        map.image[static_cast<std::size_t>(fiber.first_node + node)] = image_of(fiber, found, node);
+        map.image[static_cast<std::size_t>(fiber.first_node) + static_cast<std::size_t>(node)] =
+            image_of(fiber, found, node);
     }
     return map;
   }

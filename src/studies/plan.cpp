@@ -69,9 +69,13 @@ class Planner {
       if (plan_.chosen >= 0) return;
       below = Climbed{i, std::move(*pilot)};
     }
-    // The finest tube is judged by the table alone.
+    // The finest tube has none above it: its error is taken for half of its difference from the one below.
     Candidate& finest = plan_.candidates.back();
-    if (!std::isfinite(finest.error)) finest.error = find_ladder_error(finest.nodes_per_section) + plan_.time_error;
+    const Candidate& last = plan_.candidates[plan_.candidates.size() - 2];
+    if (last.compared_with == finest.nodes_per_section)
+      finest.error = 0.5 * find_largest_error(last.found) + plan_.time_error;
+    else if (!std::isfinite(finest.error))
+      finest.error = find_ladder_error(finest.nodes_per_section) + plan_.time_error;
     if (finest.error <= request_.tolerance && below && below->index + 1 == plan_.candidates.size())
       choose(std::move(*below));
   }

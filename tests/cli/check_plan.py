@@ -79,10 +79,10 @@ class Planning(InFreshFolder):
             self.assertIn(known, plan["candidates"][0]["verdict"])
 
     def test_a_tolerance_that_no_rung_meets_is_told_with_what_fails(self):
-        code, plan = self.plan("--tolerance", "0.0001", "--set", "time.end=2.0")
+        code, plan = self.plan("--tolerance", "0.0001", "--for", "curvature_max", "--set", "time.end=1.0")
         self.assertEqual(code, NO_RUNG)
         self.assertIsNone(plan["chosen"])
-        self.assertIn("shape", plan["reason"])
+        self.assertIn("curvature_max", plan["reason"])
 
     def test_no_time_for_pilots_is_told(self):
         code, plan = self.plan("--within", "0.000001")
