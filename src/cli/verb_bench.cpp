@@ -35,6 +35,15 @@ struct BenchOptions {
   bool no_plots = false;
 };
 
+/// The study with the lengths and rungs that were asked for.
+template <class Study>
+Study make_study(const BenchOptions& options) {
+  Study study;
+  if (!options.lengths.empty()) study.lengths = options.lengths;
+  if (!options.rungs.empty()) study.rungs.assign(options.rungs.begin(), options.rungs.end());
+  return study;
+}
+
 void print_point(const LadderPoint& point) {
   std::string errors;
   for (const AnswerError& error : point.errors)
@@ -45,10 +54,7 @@ void print_point(const LadderPoint& point) {
   std::fflush(stdout);
 }
 
-int bench_ladder(BenchOptions& options) {
-  LadderStudy study;
-  if (!options.lengths.empty()) study.lengths = options.lengths;
-  if (!options.rungs.empty()) study.rungs.assign(options.rungs.begin(), options.rungs.end());
+int bench_ladder(const BenchOptions& options) {
   const Runtime runtime(options.threads);
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
@@ -57,7 +63,7 @@ int bench_ladder(BenchOptions& options) {
                 fmt::format("cannot make the folder '{}': {}", options.folder.string(), error.message()));
   print_result(fmt::format("# {}\n{:<8} {:>5} {:>7} {:>10} {:>9}   {}\n", describe_backend(), "length", "nodes",
                            "in all", "seconds", "evaluations", "errors against the first"));
-  write_ladder(options.folder / "ladder.csv", measure_ladder(study, print_point));
+  write_ladder(options.folder / "ladder.csv", measure_ladder(make_study<LadderStudy>(options), print_point));
   if (options.no_plots) return 0;
   return run_plot_script("plot_ladder.py", {std::filesystem::absolute(options.folder).string(), "--to-stderr"});
 }
@@ -95,21 +101,18 @@ void print_contact(const ContactPoint& point) {
   std::fflush(stdout);
 }
 
-int bench_contact(BenchOptions& options) {
-  ContactStudy study;
-  if (!options.lengths.empty()) study.lengths = options.lengths;
-  if (!options.rungs.empty()) study.rungs.assign(options.rungs.begin(), options.rungs.end());
+int bench_contact(const BenchOptions& options) {
   const Runtime runtime(options.threads);
   print_result(fmt::format(
       "# {}\n# gaps and depths in radii; blob in section distances; stiffness times the paper's; shape: what the "
       "repulsion changes before contact\n{:<8} {:>6} {:>6} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10} {:>8}\n",
       describe_backend(), "length", "rung", "blob", "stiffness", "repulsion", "gap", "inside", "depth", "crossed",
       "times", "shape", "seconds"));
-  measure_contact(study, print_contact);
+  measure_contact(make_study<ContactStudy>(options), print_contact);
   return 0;
 }
 
-int bench(BenchOptions& options) {
+int bench(const BenchOptions& options) {
   if (options.what == "contact") return bench_contact(options);
   return options.what == "ladder" ? bench_ladder(options) : bench_plans(options);
 }

@@ -79,8 +79,9 @@ Verb make_plan_verb() {
       "Examples:\n"
       "  skein plan configs/lagrone2019_L0523.toml --tolerance 0.03\n"
       "  skein plan configs/tumbling.toml --tolerance 0.01 --for half_period -o cheap.toml\n"
-      "Tubes of fewer nodes on a section keep length, radius, rigidity and what they are to the fluid. From four\n"
-      "nodes on, each is run and compared with the next, until their difference says that it is good enough.\n"
+      "Rigid fibers, chains and tubes of fewer nodes on a section keep length, radius and what they are to the fluid,\n"
+      "all but the first the rigidity, too. From the first of them on, each is run and compared with a finer one,\n"
+      "until their difference says that it is good enough.\n"
       "The exit code is 0 if one is, 76 if none is.",
       [options] { return plan_scene(*options); }};
 }

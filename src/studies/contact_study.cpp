@@ -21,10 +21,7 @@ constexpr double strength = 11.0;
 
 SceneConfig make_contact_scene(const double length, const int rung) {
   constexpr double end = 31.25;  // of the paper's figure 4
-  SceneConfig scene = make_paper_scene(80, end);
-  FiberConfig& fiber = scene.fibers[0];
-  fiber.sections = static_cast<int>(std::lround(length / make_fibers(scene.fibers)[0].spacing()));
-  scene = make_rung_scene(scene, rung);
+  SceneConfig scene = make_rung_scene(make_paper_scene(count_paper_sections(length), end), rung);
   scene.hydrodynamics.method = SumMethod::direct;
   scene.hydrodynamics.precision = Precision::in_double;
   return scene;

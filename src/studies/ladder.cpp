@@ -27,10 +27,8 @@ double find_end(const double length) {
 }
 
 SceneConfig make_ladder_scene(const double length, const int nodes_per_section) {
-  SceneConfig scene = make_paper_scene(80, find_end(length));
-  FiberConfig& fiber = scene.fibers[0];
-  fiber.sections = static_cast<int>(std::lround(length / make_fibers(scene.fibers)[0].spacing()));
-  scene = make_rung_scene(scene, nodes_per_section);
+  SceneConfig scene =
+      make_rung_scene(make_paper_scene(count_paper_sections(length), find_end(length)), nodes_per_section);
   scene.time.tolerance = 3e-5;
   scene.hydrodynamics.tolerance = 1e-5;
   return scene;

@@ -1,6 +1,11 @@
 #include "studies/paper_scenes.hpp"
 
+#include <skein/fibers/fiber.hpp>
+
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace skein {
 
@@ -17,6 +22,11 @@ SceneConfig make_paper_scene(const int sections, const double end) {
   scene.output.frame_interval = 0.05;
   scene.title = fmt::format("Fiber of {} sections in shear (LaGrone et al. 2019)", sections);
   return scene;
+}
+
+int count_paper_sections(const double length) {
+  const double spacing = make_fibers(make_paper_scene(80, 1.0).fibers)[0].spacing();
+  return std::max(2, static_cast<int>(std::lround(length / spacing)));
 }
 
 }  // namespace skein

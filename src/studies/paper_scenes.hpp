@@ -13,4 +13,7 @@ constexpr double paper_radius = 0.005;
 /// @param sections  N_f; the length is N_f 0.00173648
 SceneConfig make_paper_scene(int sections, double end);
 
+/// N_f of the fiber that comes nearest to a length, at least 2.
+int count_paper_sections(double length);
+
 }  // namespace skein

@@ -11,9 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace skein {
 namespace {
 
@@ -58,14 +55,13 @@ void write_results(const std::filesystem::path& path, const std::vector<PhaseRes
 }  // namespace
 
 std::vector<PhasePoint> list_phase_points(const PhaseStudy& study) {
-  const double spacing = make_fibers(make_paper_scene(80, 1.0).fibers)[0].spacing();
   std::vector<PhasePoint> points;
   for (const bool is_perturbed : {false, true}) {
     if (is_perturbed && study.perturbation.empty()) continue;
     for (int i = 0; i < study.count; ++i) {
       const double length =
           study.count == 1 ? study.from : study.from + (study.to - study.from) * i / (study.count - 1);
-      const int sections = std::max(2, static_cast<int>(std::lround(length / spacing)));
+      const int sections = count_paper_sections(length);
       SceneConfig scene = make_rung_scene(make_paper_scene(sections, study.end), study.rung);
       if (is_perturbed) scene = perturb(scene, study.perturbation);
       points.push_back(

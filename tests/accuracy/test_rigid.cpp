@@ -63,6 +63,15 @@ struct Moment {
   std::vector<Vec3> position;
 };
 
+/// Where the nodes are at the scene's end.
+std::vector<Vec3> run_to_end(const SceneConfig& scene) {
+  Moment moment(scene);
+  const auto integrator = make_integrator(scene, moment.physics, moment.dynamics);
+  State state{0.0, 0, to_device("position", moment.position)};
+  while (state.time < scene.time.end) integrator->advance(state, scene.time.end);
+  return to_host(ConstVectors(state.position));
+}
+
 double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, norm(a[i] - b[i]));
@@ -129,11 +138,7 @@ TEST(Rigid, IsTheLimitOfStiffChains) {
     scene.fibers[0].spring_stiffness *= stiffness;
     scene.time.end = 2.0;
     scene.time.tolerance = 1e-6;
-    Moment moment(scene);
-    const auto integrator = make_integrator(scene, moment.physics, moment.dynamics);
-    State state{0.0, 0, to_device("position", moment.position)};
-    while (state.time < scene.time.end) integrator->advance(state, scene.time.end);
-    return to_host(ConstVectors(state.position));
+    return run_to_end(scene);
   };
   const std::vector<Vec3> rigid = turn(FiberModel::rigid, 1.0);
   const double length = make_tube(make_rigid(80)).length();
@@ -293,11 +298,7 @@ TEST(Rigid, StepsKeepTheirOrder) {
     scene.time.method = method;
     scene.time.step = step;
     scene.time.end = 0.8;
-    Moment moment(scene);
-    const auto integrator = make_integrator(scene, moment.physics, moment.dynamics);
-    State state{0.0, 0, to_device("position", moment.position)};
-    while (state.time < scene.time.end) integrator->advance(state, scene.time.end);
-    return to_host(ConstVectors(state.position));
+    return run_to_end(scene);
   };
   const std::vector<Vec3> exact = end_with(TimeMethod::rk4, 0.0025);
   const std::pair<TimeMethod, double> orders[] = {
