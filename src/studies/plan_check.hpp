@@ -19,8 +19,9 @@ struct PlanCheck {
   double cheapest_seconds = 0.0;  ///< of the cheapest rung that is within the tolerance, as the scene runs it otherwise
 };
 
-/// Plans a scene for several tolerances and runs what was chosen, every rung, and a tube of 24 nodes on a section with
-/// a third of the steps' tolerance, which all are compared with. Needs Kokkos.
+/// Plans a scene for several tolerances and runs what was chosen, every rung up to the first that meets the tightest of
+/// them, and a tube of 24 nodes on a section with a third of the steps' tolerance, which all are compared with. Needs
+/// Kokkos. @param tolerances  one at least
 std::vector<PlanCheck> check_plans(const SceneConfig& scene, const PlanRequest& request,
                                    const std::vector<double>& tolerances,
                                    const std::function<void(const std::string&)>& say);
