@@ -5,6 +5,7 @@
 #include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
+#include "runs/known_contact.hpp"
 #include "runs/placed_scene.hpp"
 #include "runs/scene_summary.hpp"
 #include "studies/ladder_table.hpp"
@@ -57,8 +58,9 @@ int validate_scene(const ValidateOptions& options) {
     return 0;
   }
   for (const Problem& warning : scene.warnings) print_warning(warning.describe());
-  print_result(fmt::format("{}mobility: {}\n{}\n", describe_scene(scene.config),
-                           describe_choice(choose_mobility(scene.config), scene.config), describe_ladder()));
+  print_result(fmt::format("{}mobility: {}\n{}\n{}\n", describe_scene(scene.config),
+                           describe_choice(choose_mobility(scene.config), scene.config), describe_ladder(),
+                           describe_known_contact(scene.config)));
   return 0;
 }
 

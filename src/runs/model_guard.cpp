@@ -2,6 +2,8 @@
 
 #include <skein/fibers/start_check.hpp>
 
+#include "runs/known_contact.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +13,11 @@ namespace skein {
 ModelGuard::ModelGuard(const std::vector<Fiber>& fibers, const bool has_repulsion) : has_repulsion_(has_repulsion) {
   for (const Fiber& fiber : fibers) {
     spacing_.push_back(fiber.spacing());
-    blob_ = std::max(blob_, fiber.config.blob);
+    const bool is_line = fiber.config.is_line();
+    const double length = is_line ? fiber.config.radius : fiber.config.blob;
+    if (length <= film_) continue;
+    film_ = length;
+    film_name_ = is_line ? "radius" : "blob";
   }
 }
 
@@ -41,18 +47,14 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
              "a spring is strained by {:.0f} %: springs this weak against the flow no longer act as a solid rod; "
              "take a larger spring_stiffness",
              100.0 * largest_strain));
-  if (record.smallest_gap < blob_)
-    meet(contact, record.smallest_gap < worst_[contact] * blob_, record.smallest_gap / blob_,
-         fmt::format("surfaces are {:.3g} apart, less than a blob, {:.3g}: {}", record.smallest_gap, blob_,
-                     has_repulsion_ ? "the repulsion is weak here; take a larger repulsion.strength"
-                                    : "only the fluid between them holds them off; a [repulsion] would, too"));
+  if (record.smallest_gap < film_)
+    meet(contact, record.smallest_gap < worst_[contact] * film_, record.smallest_gap / film_,
+         fmt::format("surfaces are {:.3g} apart, less than a {}, {:.3g}; {}", record.smallest_gap, film_name_, film_,
+                     advise_on_contact(has_repulsion_)));
   if (record.nodes_inside > 0)
-    meet(penetration, record.depth > worst_[penetration] * blob_, record.depth / blob_,
-         fmt::format("{} nodes are inside of another surface, the deepest by {:.3g}; the blob is {:.3g}; {}",
-                     record.nodes_inside, record.depth, blob_,
-                     has_repulsion_
-                         ? "a larger repulsion.strength keeps surfaces apart"
-                         : "with more nodes on a section it is less deep, a [repulsion] keeps surfaces apart"));
+    meet(penetration, record.depth > worst_[penetration] * film_, record.depth / film_,
+         fmt::format("{} nodes are inside of another surface, the deepest by {:.3g}; the {} is {:.3g}; {}",
+                     record.nodes_inside, record.depth, film_name_, film_, advise_on_contact(has_repulsion_)));
   most_inside_ = std::max(most_inside_, record.nodes_inside);
   if (const auto n_crossings = static_cast<double>(record.crossings); n_crossings > worst_[crossing])
     meet(crossing, true, n_crossings,
@@ -62,6 +64,7 @@ std::vector<std::string> ModelGuard::look(const StepRecord& record, const double
 }
 
 std::string ModelGuard::describe() const {
+  const std::string film_names = film_name_ == "radius" ? "radii" : "blobs";
   std::string text;
   const auto add = [&](const Kind kind, const std::string& what) {
     if (n_steps_[kind] > 0)
@@ -70,9 +73,9 @@ std::string ModelGuard::describe() const {
   };
   add(sharp_hook, fmt::format("bends down to {:.2g} of the sections' distance", 1.0 / worst_[sharp_hook]));
   add(strained_spring, fmt::format("springs strained by up to {:.0f} %", 100.0 * worst_[strained_spring]));
-  add(contact, fmt::format("gaps down to {:.2g} blobs", worst_[contact]));
-  add(penetration, fmt::format("nodes inside of another surface, up to {} of them, {:.2g} blobs deep", most_inside_,
-                               worst_[penetration]));
+  add(contact, fmt::format("gaps down to {:.2g} {}", worst_[contact], film_names));
+  add(penetration, fmt::format("nodes inside of another surface, up to {} of them, {:.2g} {} deep", most_inside_,
+                               worst_[penetration], film_names));
   add(crossing, fmt::format("centrelines that pass through each other, {} times in all", worst_[crossing]));
   if (n_steps_[contact] > 0 && n_steps_[crossing] == 0) text += "; no centreline passed through another";
   return text;

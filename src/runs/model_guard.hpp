@@ -12,8 +12,9 @@
 namespace skein {
 
 /// Watches for what the model cannot resolve: hooks sharper than the sections' spacing, springs strained by more than a
-/// half, fibers (or distant sections of one) closer than a blob, inside of each other, or across each other. Each kind
-/// is told once, and counted by steps.
+/// half, fibers (or distant sections of one) closer than a film that the fluid resolves, inside of each other, or
+/// across each other. The film is a blob; of lines, whose blob stands for the whole thickness of the fiber, a radius.
+/// Each kind is told once, and counted by steps.
 class ModelGuard {
  public:
   /// @param has_repulsion  something keeps fibers apart, if it is strong enough
@@ -34,10 +35,11 @@ class ModelGuard {
   static constexpr int n_kinds = 5;
 
   std::vector<double> spacing_;  ///< [n_fibers], length
-  double blob_ = 0.0;            ///< the largest, length
+  double film_ = 0.0;            ///< the thickest of all fibers, length
+  std::string film_name_;        ///< "blob" or "radius"
   bool has_repulsion_;
   std::array<std::int64_t, n_kinds> n_steps_{};
-  std::array<double, n_kinds> worst_{};  ///< curvature times spacing; strain; gap / blob; depth / blob; count
+  std::array<double, n_kinds> worst_{};  ///< curvature times spacing; strain; gap / film; depth / film; count
   std::int64_t most_inside_ = 0;         ///< nodes inside of surfaces in one step
 };
 

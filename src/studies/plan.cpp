@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/physics/scene_times.hpp>
 
+#include "runs/known_contact.hpp"
 #include "studies/ladder_table.hpp"
 #include "studies/plan_candidates.hpp"
 #include "studies/plan_pilots.hpp"
@@ -25,6 +26,7 @@ class Planner {
   Planner(const SceneConfig& scene, const PlanRequest& request, const std::function<void(const std::string&)>& say)
       : scene_(resolve_times(scene)), request_(request), pilots_(scene_.time.end, request, say) {
     plan_.end = plan_.pilot_end = scene_.time.end;
+    plan_.known_contact = describe_known_contact(scene_);
   }
 
   Plan make() {

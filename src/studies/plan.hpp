@@ -42,9 +42,10 @@ struct Plan {
   double time_error = 0.0;            ///< that they cause
   double pilot_end = 0.0;             ///< to where pilots ran, of `end`
   double end = 0.0;
-  double seconds = 0.0;  ///< that planning took
-  std::string variants;  ///< sums and methods that proved faster than the scene's, in words; empty: none
-  std::string reason;    ///< in one or two sentences
+  double seconds = 0.0;       ///< that planning took
+  std::string variants;       ///< sums and methods that proved faster than the scene's, in words; empty: none
+  std::string reason;         ///< in one or two sentences
+  std::string known_contact;  ///< what was known of it before, a line: see describe_known_contact
 };
 
 /// Finds it by pilot runs of the scene, from the coarsest rung on. Each is compared with the one above; one that may do

@@ -69,9 +69,7 @@ std::string describe_plan(const Plan& plan, const PlanRequest& request) {
         "pilots ran to t = {:.4g} of {:.4g}: errors are taken to grow as they did, and nothing is known "
         "of what begins later\n",
         plan.pilot_end, plan.end);
-  const auto& all = plan.candidates;
-  if (std::any_of(all.begin(), all.end(), knows_contact))
-    text += "contact: finer tubes are pressed into each other less deeply, and a [repulsion] keeps surfaces apart\n";
+  text += plan.known_contact + "\n";
   text += fmt::format("{}; planned in {:.3g} s for {:g} %\n", plan.reason, plan.seconds, 100.0 * request.tolerance);
   return text;
 }
@@ -101,7 +99,10 @@ std::string describe_plan_as_json(const Plan& plan, const PlanRequest& request) 
   }
   json.member("time_tolerance", plan.time_tolerance).member("time_error", plan.time_error);
   json.member("variants", plan.variants).member("reason", plan.reason);
-  json.member("pilot_end", plan.pilot_end).member("end", plan.end).member("seconds", plan.seconds);
+  json.member("known_contact", plan.known_contact)
+      .member("pilot_end", plan.pilot_end)
+      .member("end", plan.end)
+      .member("seconds", plan.seconds);
   return json.end_object().take() + "\n";
 }
 

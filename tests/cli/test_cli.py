@@ -136,10 +136,11 @@ class GoodScenes(InFreshFolder):
                 arguments = [word for override in overrides for word in ("--set", override)]
                 result = self.validate_content("[fiber]\n", *arguments)
                 self.assertEqual((result.returncode, result.stderr), (DONE, ""))
-                line, last = result.stdout.splitlines()[-2:]
+                line, rungs, contact = result.stdout.splitlines()[-3:]
                 self.assertTrue(line.startswith("mobility: "))
                 self.assertIn(expected, line)
-                self.assertTrue(last.startswith("resolution: "))
+                self.assertTrue(rungs.startswith("resolution: "))
+                self.assertTrue(contact.startswith("contact: "))
 
     def test_a_doubtful_blob_is_warned_of(self):
         for blob, word in (("0.006", "too thick"), ("0.0008", "leaks")):

@@ -40,7 +40,9 @@ TEST(ModelGuard, TellsEachKindOnceWithItsNumbersAndCountsSteps) {
             std::string::npos)
       << news[0];
   EXPECT_NE(news[1].find("62 %"), std::string::npos) << news[1];
-  EXPECT_NE(news[2].find("0.0039 apart, less than a blob, 0.004: only the fluid"), std::string::npos) << news[2];
+  EXPECT_NE(news[2].find("0.0039 apart, less than a blob, 0.004; no number of nodes keeps surfaces apart"),
+            std::string::npos)
+      << news[2];
   ModelGuard with_repulsion(fibers, true);
   const auto weak = with_repulsion.look(make_record(0.0039, 0.0, 0.0), 0.0);
   ASSERT_EQ(weak.size(), 1u);
@@ -52,6 +54,20 @@ TEST(ModelGuard, TellsEachKindOnceWithItsNumbersAndCountsSteps) {
       guard.describe(),
       "beyond what the model resolves: 2 steps with bends down to 0.5 of the sections' distance; 2 steps with "
       "springs strained by up to 71 %; 3 steps with gaps down to -0.5 blobs; no centreline passed through another");
+}
+
+TEST(ModelGuard, OfChainsTellsOfGapsBelowARadius) {
+  FiberConfig chain;
+  chain.model = FiberModel::chain;
+  chain.nodes_per_section = 1;
+  chain.radius = 0.005;
+  chain.blob = 0.0101;  // which stands for the radius
+  ModelGuard guard(make_fibers({chain, chain}));
+  EXPECT_TRUE(guard.look(make_record(0.0051, 0.0, 0.0), 0.0).empty());
+  const auto news = guard.look(make_record(-0.001, 0.0, 0.0), 0.0);
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_NE(news[0].find("-0.001 apart, less than a radius, 0.005"), std::string::npos) << news[0];
+  EXPECT_NE(guard.describe().find("gaps down to -0.2 radii"), std::string::npos) << guard.describe();
 }
 
 TEST(ModelGuard, TellsOfNodesInsideAndOfCentrelinesThatCross) {
