@@ -31,6 +31,7 @@ struct BenchOptions {
   std::vector<double> rungs;    ///< empty: the study's own
   std::vector<std::string> scenes;
   std::vector<double> tolerances{0.1, 0.03, 0.01};
+  double stiffness = 1.0;
   int threads = 0;
   bool no_plots = false;
 };
@@ -63,7 +64,9 @@ int bench_ladder(const BenchOptions& options) {
                 fmt::format("cannot make the folder '{}': {}", options.folder.string(), error.message()));
   print_result(fmt::format("# {}\n{:<8} {:>5} {:>7} {:>10} {:>9}   {}\n", describe_backend(), "length", "nodes",
                            "in all", "seconds", "evaluations", "errors against the first"));
-  write_ladder(options.folder / "ladder.csv", measure_ladder(make_study<LadderStudy>(options), print_point));
+  auto study = make_study<LadderStudy>(options);
+  study.stiffness = options.stiffness;
+  write_ladder(options.folder / "ladder.csv", measure_ladder(study, print_point));
   if (options.no_plots) return 0;
   return run_plot_script("plot_ladder.py", {std::filesystem::absolute(options.folder).string(), "--to-stderr"});
 }
@@ -132,8 +135,11 @@ Verb make_bench_verb() {
            make_argument("-o,--output", &options->folder, "FOLDER", "Folder for table and picture"),
            make_argument("--lengths", &options->lengths, "L,...", "Of the paper's fibers").within(0.02, 3.0),
            make_argument("--rungs", &options->rungs, "N,...",
-                         "Nodes on a section, 1 for the chain; the first is what the others are compared with")
-               .within(1, 24),
+                         "Nodes on a section, 1 for the chain, 0 for rigid fibers; the first is what the others are "
+                         "compared with")
+               .within(0, 24),
+           make_argument("--stiffness", &options->stiffness, "F", "Of the ladder's springs, times the paper's")
+               .within(1e-2, 1e3),
            make_argument("--scene", &options->scenes, "FILE", "To be planned; once for each"),
            make_argument("--tolerances", &options->tolerances, "E,...", "Of the plans").within(1e-4, 0.5),
            make_threads_option(&options->threads), make_flag("--no-plots", &options->no_plots, "Draw nothing")},

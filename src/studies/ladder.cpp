@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -26,9 +27,10 @@ double find_end(const double length) {
   return length < 0.7 ? 26.0 : 13.0;
 }
 
-SceneConfig make_ladder_scene(const double length, const int nodes_per_section) {
-  SceneConfig scene =
-      make_rung_scene(make_paper_scene(count_paper_sections(length), find_end(length)), nodes_per_section);
+SceneConfig make_ladder_scene(const double length, const double stiffness, const int nodes_per_section) {
+  SceneConfig paper = make_paper_scene(count_paper_sections(length), find_end(length));
+  paper.fibers[0].spring_stiffness *= stiffness;
+  SceneConfig scene = make_rung_scene(std::move(paper), nodes_per_section);
   scene.time.tolerance = 3e-5;
   scene.hydrodynamics.tolerance = 1e-5;
   return scene;
@@ -65,7 +67,7 @@ std::vector<LadderPoint> measure_ladder(const LadderStudy& study,
   for (const double length : study.lengths) {
     std::optional<Pilot> finest;
     for (const int rung : study.rungs) {
-      const SceneConfig scene = make_ladder_scene(length, rung);
+      const SceneConfig scene = make_ladder_scene(length, study.stiffness, rung);
       Pilot pilot =
           finest ? run_pilot(scene, n_frames, std::numeric_limits<double>::infinity()) : run_reference(scene, n_frames);
       if (!pilot.failure.empty()) throw Error(ExitCode::numerical, pilot.failure);

@@ -13,6 +13,7 @@ namespace skein {
 struct LadderStudy {
   std::vector<double> lengths{0.139, 0.196, 0.523, 0.931};
   std::vector<int> rungs{24, 18, 12, 9, 6, 5, 4, 1};  ///< the first is what the others are compared with
+  double stiffness = 1.0;                             ///< of springs, times the paper's
 };
 
 /// One run of the study.

@@ -30,6 +30,11 @@ double find_ladder_error(const int nodes_per_section) {
   return error;
 }
 
+double find_rigid_error() {
+  // By `skein bench ladder --lengths 0.139 --rungs 9,6,1,0 --stiffness 100`.
+  return 0.001;
+}
+
 int find_ladder_rung(const double tolerance) {
   for (const LadderRow& row : list_ladder())
     if (row.error <= tolerance) return row.nodes_per_section;

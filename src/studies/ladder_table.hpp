@@ -17,6 +17,10 @@ const std::vector<LadderRow>& list_ladder();
 /// rigid fibers, below them: all depends on what bends the fibers of a scene.
 double find_ladder_error(int nodes_per_section);
 
+/// The same of rigid fibers in the stead of tubes that nothing bends: what is left where a rung that bends says so,
+/// too.
+double find_rigid_error();
+
 /// The fewest nodes on a section that are within a tolerance by that table; -1 where none are.
 int find_ladder_rung(double tolerance);
 

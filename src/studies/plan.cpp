@@ -120,7 +120,10 @@ class Planner {
     // Phases drift with time: what pilots did not reach is taken to go on as it did.
     const double rest = plan_.end / plan_.pilot_end;
     const double table = find_ladder_error(plan_.candidates[above].nodes_per_section);
-    candidate.error = (difference + table) * rest + plan_.time_error;
+    // How much fibers bend, which rigid ones do not, the rung above says to within its own error of bending ones.
+    candidate.error = candidate.nodes_per_section == rigid_rung ? difference * (1.0 + table) + find_rigid_error()
+                                                                : difference + table;
+    candidate.error = candidate.error * rest + plan_.time_error;
     if (!std::isfinite(plan_.candidates[above].error)) plan_.candidates[above].error = table * rest + plan_.time_error;
     if (!(candidate.error <= request_.tolerance)) compare_with_reference(candidate, lower.pilot, above + 1, difference);
     if (candidate.error <= request_.tolerance) return true;

@@ -67,9 +67,10 @@ class Planning(InFreshFolder):
         self.assertLess(nodes, 9)
 
     def test_a_fiber_that_nothing_bends_is_taken_for_rigid(self):
-        code, plan = self.plan("--tolerance", "0.1", "--set", "fiber.spring_stiffness=2.0", "-o", "planned.toml")
+        code, plan = self.plan("--tolerance", "0.02", "--set", "fiber.spring_stiffness=2.0", "-o", "planned.toml")
         self.assertEqual(code, DONE, plan)
         self.assertEqual(plan["chosen"], 0)
+        self.assertIn("contact: ", plan["known_contact"])
         self.assertIn('model = "rigid"', (self.folder / "planned.toml").read_text())
         self.expect(DONE, "run", "planned.toml", "-o", "planned", "-q")
         self.expect(DONE, "verify", "planned")
