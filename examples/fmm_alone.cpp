@@ -38,7 +38,7 @@ int main() {
 
   skein::FmmOptions options;
   options.tolerance = 1e-4;
-  const auto sum = skein::make_fmm_sum(skein::FmmPath::automatic);
+  const auto sum = skein::make_fmm_sum(skein::KernelPath::automatic);
   const skein::Vectors x = skein::to_device("position", position), velocity("velocity", position.size());
   const skein::Sources sources{x, skein::to_device("force", force),
                                skein::to_device("blob", std::vector<double>(position.size(), blob))};

@@ -15,4 +15,9 @@ template <class Space>
 void add_flow_velocity(const Space& space, const FlowTerms& terms, const ConstVectorView<Space>& position,
                        const VectorView<Space>& velocity);
 
+/// The same in place of what was in `velocity`.
+template <class Space>
+void compute_flow_velocity(const Space& space, const FlowTerms& terms, const ConstVectorView<Space>& position,
+                           const VectorView<Space>& velocity);
+
 }  // namespace skein

@@ -3,24 +3,12 @@
 #include <skein/core/math.hpp>
 #include <skein/core/simd.hpp>
 
+#include "kernels/inverse_sqrt.hpp"
+
 #include <numbers>
+#include <type_traits>
 
 namespace skein {
-
-namespace math {
-
-SKEIN_INLINE_FUNCTION double inverse_sqrt_cubed(const double x) {
-  const double y = inverse_sqrt(x);
-  return y * y * y;
-}
-SKEIN_INLINE_FUNCTION float inverse_sqrt_cubed(const float x) {
-  const float y = inverse_sqrt(x);
-  return y * y * y;
-}
-inline simd::Pack<double> inverse_sqrt_cubed(const simd::Pack<double> x) { return simd::inverse_sqrt_cubed(x); }
-inline simd::Pack<float> inverse_sqrt_cubed(const simd::Pack<float> x) { return simd::inverse_sqrt_cubed(x); }
-
-}  // namespace math
 
 /// Velocity of the fluid due to a force spread over the blob phi = 15 eps^4 / (8 pi (r^2 + eps^2)^(7/2)):
 ///
@@ -45,8 +33,14 @@ struct Weights {
 template <class Lanes, class BlobSquared>
 SKEIN_FORMULA Weights<Lanes> weights(const Lanes dx, const Lanes dy, const Lanes dz, const BlobSquared blob_squared) {
   const Lanes core_squared = dx * dx + (dy * dy + (dz * dz + blob_squared));
-  const Lanes along = math::inverse_sqrt_cubed(core_squared);
-  return {along, along * (core_squared + blob_squared)};
+  if constexpr (std::is_floating_point_v<Lanes>) {
+    const Lanes inverse = math::inverse_sqrt_of_normal(core_squared);
+    const Lanes along = inverse * inverse * inverse;
+    return {along, blob_squared * along + inverse};
+  } else {
+    const Lanes along = simd::inverse_sqrt_cubed(core_squared);
+    return {along, along * (core_squared + blob_squared)};
+  }
 }
 
 /// u += 8 pi viscosity times the velocity due to the force f.

@@ -83,17 +83,30 @@ void check_extents(const SpringArrays<Space>& springs, const ConstVectorView<Spa
                 "positions, forces and the nodes of the springs differ in number");
 }
 
+template <class Space>
+void sum_by_nodes(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
+                  const VectorView<Space>& force, const bool adds) {
+  check_extents<Space>(springs, position, force);
+  Kokkos::parallel_for(
+      "skein::add_spring_force_by_nodes", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
+      KOKKOS_LAMBDA(const int node) {
+        const Vec3 before = adds ? load(force, node) : Vec3{};
+        store(force, node, before + force_on_node<Space>(springs, position, node));
+      });
+}
+
 }  // namespace
 
 template <class Space>
 void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                const ConstVectorView<Space>& position, const VectorView<Space>& force) {
-  check_extents<Space>(springs, position, force);
-  Kokkos::parallel_for(
-      "skein::add_spring_force_by_nodes", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
-      KOKKOS_LAMBDA(const int node) {
-        store(force, node, load(force, node) + force_on_node<Space>(springs, position, node));
-      });
+  sum_by_nodes<Space>(space, springs, position, force, true);
+}
+
+template <class Space>
+void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+                                   const ConstVectorView<Space>& position, const VectorView<Space>& force) {
+  sum_by_nodes<Space>(space, springs, position, force, false);
 }
 
 template <class Space>
@@ -123,12 +136,14 @@ void compute_section_energy(const Space& space, const SpringArrays<Space>& sprin
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                              \
-  template void add_spring_force<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,          \
-                                    const VectorView<S>&);                                                \
-  template void add_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
-                                             const VectorView<S>&);                                       \
-  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,    \
+#define SKEIN_INSTANTIATE(S)                                                                                  \
+  template void add_spring_force<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,              \
+                                    const VectorView<S>&);                                                    \
+  template void add_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,     \
+                                             const VectorView<S>&);                                           \
+  template void compute_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
+                                                 const VectorView<S>&);                                       \
+  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,        \
                                           const ScalarView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

@@ -58,6 +58,11 @@ template <class Space>
 void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                const ConstVectorView<Space>& position, const VectorView<Space>& force);
 
+/// The same in place of what was in `force`.
+template <class Space>
+void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+                                   const ConstVectorView<Space>& position, const VectorView<Space>& force);
+
 /// Overwrites section_energy, [n_sections], with sum k l (r/l - 1)^2 / 2 over the springs inside each section and from
 /// it to later sections.
 template <class Space>

@@ -5,28 +5,19 @@
 
 namespace skein {
 
-/// velocity += sum over sources of the regularized Stokeslet; blobs belong to the sources.
+/// velocity += sum over sources of the regularized Stokeslet, on the host; blobs belong to the sources. What GPUs do
+/// instead is in stokeslet_teams.hpp.
 ///
 /// @param source_position, source_force  [n_sources, 3];  @param blob  [n_sources], > 0
 /// @param target, velocity               [n_targets, 3]
 /// @param precision  arithmetic of one pair, not automatic. Single: differences keep double accuracy, sums are double
 ///                   beyond a tile; the result is good to about 1e-6.
 ///
-/// The order of every sum is fixed by the tiles alone: the result does not depend on threads or teams.
-template <class Space>
-void add_stokeslet_velocity(const Space& space, const ConstVectorView<Space>& source_position,
-                            const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
-                            const ConstVectorView<Space>& target, const VectorView<Space>& velocity, double viscosity,
-                            Precision precision);
-
-/// The same as GPUs compute it: a thread per target, and teams that share tiles of sources. Hosts have it so that its
-/// loop is tested everywhere; they use it for nothing else.
-/// @param team_size  > 0, and no more than the space allows; the result does not depend on it
-template <class Space>
-void add_stokeslet_velocity_by_teams(const Space& space, const ConstVectorView<Space>& source_position,
-                                     const ConstVectorView<Space>& source_force, const ConstScalarView<Space>& blob,
-                                     const ConstVectorView<Space>& target, const VectorView<Space>& velocity,
-                                     double viscosity, Precision precision, int team_size);
+/// The order of every sum is fixed by the tiles alone: the result does not depend on threads.
+void add_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& source_position,
+                            const ConstVectorView<HostSpace>& source_force, const ConstScalarView<HostSpace>& blob,
+                            const ConstVectorView<HostSpace>& target, const VectorView<HostSpace>& velocity,
+                            double viscosity, Precision precision);
 
 /// The general sum where every source is a target and all blobs are equal, on the host: S_eps is symmetric then, and
 /// each pair is weighed once for both of its nodes. perf/bench_direct compares it with the general sum.

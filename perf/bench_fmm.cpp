@@ -256,9 +256,9 @@ void bench_device(const bool tiny) {
     Case problem(shape.nodes, shape.blob);
     for (const double tolerance : {1e-3, 1e-4, 1e-6})
       for (const int leaf_size : {0, 40, 80, 160, 320, 640})
-        for (const FmmPath path : {FmmPath::device, FmmPath::host}) {
-          const bool is_reference = path == FmmPath::host && leaf_size == 0;
-          if (path == FmmPath::host && !is_reference) continue;
+        for (const KernelPath path : {KernelPath::device, KernelPath::host}) {
+          const bool is_reference = path == KernelPath::host && leaf_size == 0;
+          if (path == KernelPath::host && !is_reference) continue;
           if (tiny && (leaf_size > 0 || tolerance < 1e-3)) continue;
           FmmOptions options;
           options.path = path;

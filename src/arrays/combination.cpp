@@ -1,6 +1,8 @@
 #include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 
+#include <utility>
+
 namespace skein {
 namespace {
 
@@ -20,6 +22,18 @@ struct Combination {
     }
   }
 };
+
+/// Sums of chunks, kept from one dot product to the next: on a device an allocation takes longer than the product, and
+/// waits for all that was launched. Freed before Kokkos ends.
+template <class Space>
+const ScalarView<Space>& require_chunk_sums(const int n_chunks) {
+  static ScalarView<Space> sums;
+  if (sums.extent_int(0) < n_chunks) {
+    if (!sums.is_allocated()) Kokkos::push_finalize_hook([] { sums = {}; });
+    sums = ScalarView<Space>(Kokkos::ViewAllocateWithoutInitializing("skein::dot_product"), n_chunks);
+  }
+  return sums;
+}
 
 template <class Space, class... Terms>
 void run(const Space& space, const VectorView<Space>& result, const Terms&... terms) {
@@ -50,7 +64,7 @@ double dot_product(const Space& space, const ConstVectorView<Space>& a, const Co
   SKEIN_REQUIRE(a.extent(0) == b.extent(0), "arrays of a dot product differ in length");
   const int n_nodes = a.extent_int(0);
   const int n_chunks = math::ceil_div(n_nodes, chunk_nodes);
-  const ScalarView<Space> chunk_sum(Kokkos::ViewAllocateWithoutInitializing("skein::dot_product"), n_chunks);
+  const ScalarView<Space> chunk_sum = require_chunk_sums<Space>(n_chunks);
   Kokkos::parallel_for(
       "skein::dot_product", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
         const int last = math::smaller(n_nodes, (chunk + 1) * chunk_nodes);
@@ -59,7 +73,8 @@ double dot_product(const Space& space, const ConstVectorView<Space>& a, const Co
           sum += a(i, 0) * b(i, 0) + a(i, 1) * b(i, 1) + a(i, 2) * b(i, 2);
         chunk_sum(chunk) = sum;
       });
-  const auto on_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), chunk_sum);
+  const auto on_host =
+      Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), Kokkos::subview(chunk_sum, std::make_pair(0, n_chunks)));
   double total = 0.0;
   for (int chunk = 0; chunk < n_chunks; ++chunk) total += on_host(chunk);
   return total;

@@ -9,28 +9,26 @@
 namespace skein {
 namespace {
 
-constexpr int evaluations_per_timing = on_host<ExecSpace> ? 1 : 16;
-
 double wait_and_look() {
   ExecSpace().fence();
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Times the two parts of an evaluation, once the device is idle; on a device only one evaluation in many.
+/// Times the two parts of an evaluation, waiting for the device before each look at the clock.
 class PartsTimer {
  public:
-  PartsTimer(const std::int64_t evaluation, FiberDynamics::Seconds& seconds)
-      : timed_(evaluation % evaluations_per_timing == 0), seconds_(seconds), start_(timed_ ? wait_and_look() : 0.0) {}
+  PartsTimer(const bool timed, FiberDynamics::Seconds& seconds)
+      : timed_(timed), seconds_(seconds), start_(timed ? wait_and_look() : 0.0) {}
   PartsTimer(const PartsTimer&) = delete;
   PartsTimer& operator=(const PartsTimer&) = delete;
 
   void begin_fluid() {
     if (!timed_) return;
     fluid_start_ = wait_and_look();
-    seconds_.springs_and_flow += evaluations_per_timing * (fluid_start_ - start_);
+    seconds_.springs_and_flow += fluid_start_ - start_;
   }
   ~PartsTimer() {
-    if (timed_ && fluid_start_ > 0.0) seconds_.fluid += evaluations_per_timing * (wait_and_look() - fluid_start_);
+    if (timed_ && fluid_start_ > 0.0) seconds_.fluid += wait_and_look() - fluid_start_;
   }
 
  private:
@@ -51,14 +49,14 @@ FiberDynamics::FiberDynamics(Physics& physics)
 }
 
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
-  PartsTimer timer(evaluations_++, seconds_);
-  Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
+  ++evaluations_;
+  PartsTimer timer(times_parts_, seconds_);
   ConstVectors places = position;
   if (!physics_.rigid_bodies.is_empty()) {
     motion_.compute_places(position, places_);
     places = places_;
   }
-  physics_.flow->add_velocity(time, places, velocity);
+  physics_.flow->compute_velocity(time, places, velocity);
   physics_.compute_forces(time, places, force_);
   timer.begin_fluid();
   motion_.solve(places, force_, velocity);
@@ -73,7 +71,8 @@ void FiberDynamics::project(const Vectors& position) {
 
 void FiberDynamics::multiply(const double time, const ConstVectors& position, const ConstVectors& displacement,
                              const Vectors& result) {
-  PartsTimer timer(evaluations_++, seconds_);
+  ++evaluations_;
+  PartsTimer timer(times_parts_, seconds_);
   Kokkos::deep_copy(ExecSpace(), result, 0.0);
   physics_.compute_force_changes(time, position, displacement, force_);
   timer.begin_fluid();

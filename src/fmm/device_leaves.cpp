@@ -1,4 +1,5 @@
 #include "fmm/device_translations.hpp"
+#include "kernels/shared_source.hpp"
 
 // The last pass: everything that ends at the targets of a leaf, so that their velocities are written once.
 
@@ -6,13 +7,6 @@ namespace skein {
 namespace {
 
 constexpr int part_targets = 128;  // of a leaf, that a team takes at once
-
-/// One source as the near field sees it, from the centre of the targets' leaf.
-template <class Near>
-struct NearSource {
-  Near y[3], force[3];
-  Near blob_squared;
-};
 
 template <class Space, class Real, class Field>
 struct Leaves {
@@ -64,7 +58,7 @@ LeafParts<Space> make_parts(const Space& space, const DeviceOctree<Space>& tree)
 /// U: a run of sources, directly. @param sum  [3][part_targets]
 template <class Near, class Space, class Team>
 KOKKOS_INLINE_FUNCTION void team_add_near(const Team& team, const DeviceNodes<Space>& nodes, const IndexRange& sources,
-                                          const IndexRange& targets, const Vec3 center, NearSource<Near>* tile,
+                                          const IndexRange& targets, const Vec3 center, SharedSource<Near>* tile,
                                           double* sum) {
   for (int first = 0; first < sources.count; first += team_tile) {
     const int count = math::smaller(team_tile, sources.count - first);
@@ -72,26 +66,20 @@ KOKKOS_INLINE_FUNCTION void team_add_near(const Team& team, const DeviceNodes<Sp
     for (int s = team.team_rank(); s < count; s += team.team_size()) {
       const int i = sources.first + first + s;
       const Vec3 y = load(nodes.position, i) - center;
-      tile[s].y[0] = static_cast<Near>(y.x);
-      tile[s].y[1] = static_cast<Near>(y.y);
-      tile[s].y[2] = static_cast<Near>(y.z);
-      for (int c = 0; c < 3; ++c) tile[s].force[c] = static_cast<Near>(nodes.force(i, c));
-      tile[s].blob_squared = static_cast<Near>(nodes.blob(i) * nodes.blob(i));
+      const Vec3 force = load(nodes.force, i);
+      tile[s].place = {static_cast<Near>(y.x), static_cast<Near>(y.y), static_cast<Near>(y.z),
+                       static_cast<Near>(nodes.blob(i) * nodes.blob(i))};
+      tile[s].force = {static_cast<Near>(force.x), static_cast<Near>(force.y), static_cast<Near>(force.z), Near(0)};
     }
     team.team_barrier();  // the tile is complete
     for (int t = team.team_rank(); t < targets.count; t += team.team_size()) {
       const Vec3 from_center = load(nodes.target, targets.first + t) - center;
-      const Near x = static_cast<Near>(from_center.x), y = static_cast<Near>(from_center.y),
-                 z = static_cast<Near>(from_center.z);
-      Near u[3] = {};
-      for (int s = 0; s < count; ++s) {
-        const NearSource<Near>& source = tile[s];
-        const Near dx = x - source.y[0], dy = y - source.y[1], dz = z - source.y[2];
-        const auto weight = regularized_stokeslet::weights(dx, dy, dz, source.blob_squared);
-        regularized_stokeslet::add(weight, dx, dy, dz, source.force[0], source.force[1], source.force[2], u[0], u[1],
-                                   u[2]);
-      }
-      for (int c = 0; c < 3; ++c) sum[c * part_targets + t] += static_cast<double>(u[c]);
+      HeldTargets<Near, 1> held{{{static_cast<Near>(from_center.x), static_cast<Near>(from_center.y),
+                                  static_cast<Near>(from_center.z), Near(0)}},
+                                {},
+                                {}};
+      held.template add<false>(tile, nullptr, count);
+      for (int c = 0; c < 3; ++c) sum[c * part_targets + t] += static_cast<double>(held.velocity[0][c]);
     }
   }
 }
@@ -127,7 +115,7 @@ KOKKOS_INLINE_FUNCTION void team_add_surface(const Team& team, const DeviceNodes
 /// Everything that ends at some targets of a leaf.
 template <class Near, class Space, class Team, class Real, class Field>
 KOKKOS_INLINE_FUNCTION void team_add_part(const Team& team, const Leaves<Space, Real, Field>& leaves, const int leaf,
-                                          const IndexRange& targets, NearSource<Near>* tile, Real* density,
+                                          const IndexRange& targets, SharedSource<Near>* tile, Real* density,
                                           double* sum) {
   const int b = leaves.target_leaves(leaf);
   const Box box = leaves.boxes(b);
@@ -164,7 +152,7 @@ void add_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>&
                                   const DeviceCoefficients<Space, Real>& coefficients,
                                   const VectorView<Space>& velocity, const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
-  using Tile = TeamArray<Space, NearSource<Near>>;
+  using Tile = TeamArray<Space, SharedSource<Near>>;
   using Densities = TeamArray<Space, Real>;
   using Sums = TeamArray<Space, double>;
   const LeafParts<Space> parts = make_parts(space, tree);

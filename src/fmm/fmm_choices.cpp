@@ -9,8 +9,8 @@
 
 namespace skein {
 
-std::unique_ptr<FmmSum> make_fmm_sum(const FmmPath path) {
-  const bool is_on_host = path == FmmPath::automatic ? on_host<ExecSpace> : path == FmmPath::host;
+std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path) {
+  const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
   if (is_on_host) return std::make_unique<FmmEvaluator>();
   return std::make_unique<DeviceFmmEvaluator>();
 }

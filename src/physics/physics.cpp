@@ -36,8 +36,9 @@ std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::sha
 }  // namespace
 
 void Physics::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
-  Kokkos::deep_copy(ExecSpace(), force, 0.0);
-  for (const auto& part : forces) part->add_forces(time, position, force);
+  if (forces.empty()) return Kokkos::deep_copy(ExecSpace(), force, 0.0);
+  forces.front()->compute_forces(time, position, force);
+  for (std::size_t i = 1; i < forces.size(); ++i) forces[i]->add_forces(time, position, force);
 }
 
 void Physics::compute_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,

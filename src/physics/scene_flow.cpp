@@ -81,6 +81,14 @@ void SceneFlow::add_velocity(const double time, const ConstVectors& position, co
   for (const FlowTerms& terms : make_terms(time)) add_flow_velocity<ExecSpace>(ExecSpace(), terms, position, velocity);
 }
 
+void SceneFlow::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) const {
+  std::vector<FlowTerms> batches = make_terms(time);
+  if (batches.empty()) batches.emplace_back();
+  compute_flow_velocity<ExecSpace>(ExecSpace(), batches.front(), position, velocity);
+  for (std::size_t b = 1; b < batches.size(); ++b)
+    add_flow_velocity<ExecSpace>(ExecSpace(), batches[b], position, velocity);
+}
+
 std::vector<FlowTerms> SceneFlow::make_terms(const double time) const {
   std::vector<FlowTerms> batches;
   for (const FlowConfig& flow : flows_) {

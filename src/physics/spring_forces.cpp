@@ -66,10 +66,12 @@ SpringArrays<ExecSpace> make_arrays(const std::vector<SpringNetwork>& networks) 
 
 }  // namespace
 
-SpringForces::SpringForces(const std::vector<Fiber>& fibers) : SpringForces(make_spring_networks(fibers)) {}
+SpringForces::SpringForces(const std::vector<Fiber>& fibers, const KernelPath path)
+    : SpringForces(make_spring_networks(fibers), path) {}
 
-SpringForces::SpringForces(const std::vector<SpringNetwork>& networks)
-    : springs_(std::make_unique<SpringArrays<ExecSpace>>(make_arrays(networks))) {
+SpringForces::SpringForces(const std::vector<SpringNetwork>& networks, const KernelPath path)
+    : springs_(std::make_unique<SpringArrays<ExecSpace>>(make_arrays(networks))),
+      by_nodes_(path == KernelPath::device || !on_host<ExecSpace>) {
   for (const SpringNetwork& network : networks) n_sections_.push_back(network.n_sections);
   section_energy_ = Scalars("skein::section_energy", std::accumulate(n_sections_.begin(), n_sections_.end(), 0));
 }
@@ -87,7 +89,13 @@ ForcePromises SpringForces::promises() const {
 }
 
 void SpringForces::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {
+  if (by_nodes_) return add_spring_force_by_nodes<ExecSpace>(ExecSpace(), *springs_, position, force);
   add_spring_force<ExecSpace>(ExecSpace(), *springs_, position, force);
+}
+
+void SpringForces::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
+  if (by_nodes_) return compute_spring_force_by_nodes<ExecSpace>(ExecSpace(), *springs_, position, force);
+  Force::compute_forces(time, position, force);
 }
 
 void SpringForces::add_force_changes(double /*time*/, const ConstVectors& position, const ConstVectors& displacement,

@@ -20,7 +20,6 @@ void RunLedger::begin(const std::int64_t step) {
 void RunLedger::exclude_evaluations() {
   spare_evaluations_ = dynamics_.evaluations();
   spare_pairs_ = dynamics_.physics().mobility->pairs();
-  spare_seconds_ = dynamics_.seconds();
 }
 
 void RunLedger::count(const StepReport& report) {
@@ -40,8 +39,9 @@ CostCard RunLedger::make_card(const std::int64_t step, const double length) cons
   card.rejected = counts_.rejected - counts_at_start_.rejected;
   card.evaluations = dynamics_.evaluations() - spare_evaluations_;
   card.pairs = mobility.pairs() - spare_pairs_;
-  card.fluid = dynamics_.seconds().fluid - spare_seconds_.fluid;
-  card.springs_and_flow = dynamics_.seconds().springs_and_flow - spare_seconds_.springs_and_flow;
+  const double share = parts_.timed_integration > 0.0 ? parts_.integration / parts_.timed_integration : 0.0;
+  card.fluid = share * dynamics_.seconds().fluid;
+  card.springs_and_flow = share * dynamics_.seconds().springs_and_flow;
   card.integrator = parts_.integration - card.fluid - card.springs_and_flow;
   card.observables = parts_.observables;
   card.output = parts_.trajectory + parts_.frames + parts_.checkpoints;

@@ -40,7 +40,9 @@ class RunLedger {
   /// Wall time of the parts of this process's work, seconds.
   struct Parts {
     double integration = 0.0, observables = 0.0, frames = 0.0, checkpoints = 0.0;
-    double trajectory = 0.0;        ///< of the class that writes it, as it says itself
+    double timed_integration =
+        0.0;                  ///< of steps in which the dynamics timed its parts; the others are taken to be alike
+    double trajectory = 0.0;  ///< of the class that writes it, as it says itself
     double direct_sums_each = 0.0;  ///< an evaluation by a direct sum would take, estimated; 0: that is the method
     double megabytes = 0.0;         ///< written
   };
@@ -62,7 +64,6 @@ class RunLedger {
   Parts parts_;
   std::int64_t step_at_start_ = 0, spare_evaluations_ = 0;
   double spare_pairs_ = 0.0, largest_error_ = 0.0;
-  FiberDynamics::Seconds spare_seconds_;
 };
 
 }  // namespace skein

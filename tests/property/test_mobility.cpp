@@ -209,7 +209,7 @@ std::unique_ptr<Mobility> make_direct_in_single(const double viscosity) {
 
 /// Leaves small enough that these few nodes have a far field.
 std::unique_ptr<Mobility> make_fmm(const double viscosity, const double tolerance, const FarField far_field,
-                                   const FmmPath path = FmmPath::automatic) {
+                                   const KernelPath path = KernelPath::automatic) {
   FmmOptions options;
   options.path = path;
   options.tolerance = tolerance;
@@ -224,7 +224,7 @@ std::unique_ptr<Mobility> make_fmm_in_double(const double viscosity) {
   return make_fmm(viscosity, 3e-7, FarField::harmonic);
 }
 std::unique_ptr<Mobility> make_fmm_on_device(const double viscosity) {
-  return make_fmm(viscosity, 1e-5, FarField::harmonic, FmmPath::device);
+  return make_fmm(viscosity, 1e-5, FarField::harmonic, KernelPath::device);
 }
 std::unique_ptr<Mobility> make_fmm_of_stokeslets(const double viscosity) {
   return make_fmm(viscosity, 1e-3, FarField::stokeslet);

@@ -21,7 +21,7 @@ std::uint64_t hash_of(const std::vector<Vec3>& velocity) {
   return hash;
 }
 
-void print_hashes(const FmmPath path, const std::vector<reference::Cloud>& clouds, const int n_many) {
+void print_hashes(const KernelPath path, const std::vector<reference::Cloud>& clouds, const int n_many) {
   for (const reference::Cloud cloud : clouds)
     for (const int n : {500, n_many})
       for (const Precision precision : {Precision::in_double, Precision::in_single})
@@ -58,6 +58,6 @@ int main() {
   const skein::Runtime runtime;
   std::printf("threads %d\n", skein::HostSpace().concurrency());
   using skein::reference::Cloud;
-  skein::print_hashes(skein::FmmPath::host, {Cloud::cube, Cloud::tube, Cloud::line, Cloud::cluster}, 20000);
-  skein::print_hashes(skein::FmmPath::device, {Cloud::tube, Cloud::cluster}, 3000);
+  skein::print_hashes(skein::KernelPath::host, {Cloud::cube, Cloud::tube, Cloud::line, Cloud::cluster}, 20000);
+  skein::print_hashes(skein::KernelPath::device, {Cloud::tube, Cloud::cluster}, 3000);
 }

@@ -3,6 +3,7 @@
 #include <skein/arrays/types.hpp>
 
 #include "kernels/stokeslet_direct.hpp"
+#include "kernels/stokeslet_teams.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
 
@@ -12,7 +13,7 @@
 
 namespace skein {
 
-// The three sums of kernels/stokeslet_direct.hpp behind one call on host lists, for the tests that all of them pass.
+// The three direct sums behind one call on host lists, for the tests that all of them pass.
 
 enum class Sum { general, symmetric, teams };
 inline constexpr double test_viscosity = 1.7;
@@ -28,23 +29,43 @@ inline HostVectors make_host_vectors(const std::vector<Vec3>& list) {
   return vectors;
 }
 
-/// `velocity` plus what `sum` adds to it. Team size 1 is the only one that every host has.
+/// `velocity` plus what teams add to it in the memory of a space.
+template <class Space>
+std::vector<Vec3> add_velocity_by_teams(const Precision precision, const reference::PointForces& sources,
+                                        const std::vector<Vec3>& target, const std::vector<Vec3>& velocity,
+                                        const TeamSplit& split) {
+  const auto copy = [](const std::vector<Vec3>& list) {
+    return VectorView<Space>(
+        Kokkos::create_mirror_view_and_copy(typename Space::memory_space(), make_host_vectors(list)));
+  };
+  const HostScalars blob("test::blob", sources.blob.size());
+  for (std::size_t i = 0; i < sources.blob.size(); ++i) blob(i) = sources.blob[i];
+  const VectorView<Space> result = copy(velocity);
+  ScalarView<Space> partial;
+  add_stokeslet_velocity_by_teams<Space>(
+      Space(), copy(sources.position), copy(sources.force),
+      ScalarView<Space>(Kokkos::create_mirror_view_and_copy(typename Space::memory_space(), blob)), copy(target),
+      result, test_viscosity, precision, split, partial);
+  Kokkos::fence();
+  const auto on_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), result);
+  std::vector<Vec3> list;
+  for (int i = 0; i < on_host.extent_int(0); ++i) list.push_back(load(on_host, i));
+  return list;
+}
+
+/// `velocity` plus what `sum` adds to it; teams do so on the device, if there is one.
 inline std::vector<Vec3> add_velocity(const Sum sum, const Precision precision, const reference::PointForces& sources,
-                                      const std::vector<Vec3>& target, const std::vector<Vec3>& velocity,
-                                      const int team_size = 1) {
+                                      const std::vector<Vec3>& target, const std::vector<Vec3>& velocity) {
+  if (sum == Sum::teams) return add_velocity_by_teams<ExecSpace>(precision, sources, target, velocity, {.n_runs = 3});
   const HostSpace space;
   const HostVectors position = make_host_vectors(sources.position), force = make_host_vectors(sources.force),
                     result = make_host_vectors(velocity);
   const HostScalars blob("test::blob", sources.blob.size());
   for (std::size_t i = 0; i < sources.blob.size(); ++i) blob(i) = sources.blob[i];
   if (sum == Sum::general)
-    add_stokeslet_velocity<HostSpace>(space, position, force, blob, make_host_vectors(target), result, test_viscosity,
-                                      precision);
+    add_stokeslet_velocity(space, position, force, blob, make_host_vectors(target), result, test_viscosity, precision);
   if (sum == Sum::symmetric)
     add_symmetric_stokeslet_velocity(space, position, force, blob, result, test_viscosity, precision);
-  if (sum == Sum::teams)
-    add_stokeslet_velocity_by_teams<HostSpace>(space, position, force, blob, make_host_vectors(target), result,
-                                               test_viscosity, precision, team_size);
   space.fence();
   std::vector<Vec3> list;
   for (int i = 0; i < result.extent_int(0); ++i) list.push_back(load(result, i));

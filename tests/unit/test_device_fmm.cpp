@@ -37,7 +37,7 @@ PointForces make_forces(const Cloud cloud, const int n, const double low_blob, c
 FmmOptions options_for(const FarField far_field) {
   FmmOptions options;
   options.far_field = far_field;
-  options.path = FmmPath::device;
+  options.path = KernelPath::device;
   options.order = far_field == FarField::harmonic ? 6 : 4;
   options.tolerance = far_field == FarField::harmonic ? 1e-3 : 1.0;
   options.precision = Precision::in_double;
@@ -67,7 +67,7 @@ Outcome evaluate(const FmmOptions& options, const PointForces& from) {
   return evaluate(fmm, from, {});
 }
 
-FmmOptions on_path(FmmOptions options, const FmmPath path) {
+FmmOptions on_path(FmmOptions options, const KernelPath path) {
   options.path = path;
   return options;
 }
@@ -76,7 +76,8 @@ FmmOptions on_path(FmmOptions options, const FmmPath path) {
 class BothPaths {
  public:
   explicit BothPaths(const FmmOptions& options)
-      : device_(viscosity, on_path(options, FmmPath::device)), host_(viscosity, on_path(options, FmmPath::host)) {}
+      : device_(viscosity, on_path(options, KernelPath::device)),
+        host_(viscosity, on_path(options, KernelPath::host)) {}
 
   void expect_agreement(const PointForces& from, const std::vector<Vec3>& target, const double allowed_difference,
                         const double allowed_error) {
@@ -229,7 +230,7 @@ TEST(DeviceFmm, ChecksRaiseTheOrderAsOnTheHost) {
   PointForces from = make_forces(Cloud::tube, 3000, 1e-5, 1e-5);
   from.force.assign(from.force.size(), {1.0, 0.3, -0.2});  // far fields that add up
   ErrorRecord record[2];
-  for (const FmmPath path : {FmmPath::host, FmmPath::device}) {
+  for (const KernelPath path : {KernelPath::host, KernelPath::device}) {
     FmmOptions options = on_path(options_for(FarField::harmonic), path);
     options.order = 4;
     options.tolerance = 3e-3;
@@ -240,7 +241,7 @@ TEST(DeviceFmm, ChecksRaiseTheOrderAsOnTheHost) {
     EXPECT_LT(relative_error(outcome.velocity, reference::compute_stokeslet_velocity(from, from.position, viscosity)),
               3e-3);
     EXPECT_EQ(fmm.take_messages().size(), static_cast<std::size_t>(fmm.error_record().n_misses));
-    record[path == FmmPath::device] = fmm.error_record();
+    record[path == KernelPath::device] = fmm.error_record();
   }
   EXPECT_GE(record[0].n_misses, 1);
   EXPECT_EQ(record[1].n_misses, record[0].n_misses);

@@ -1,6 +1,8 @@
-// What a step launches and waits for does not grow with the number of fibers.
+// What steps and evaluations launch and wait for: on a device each launch costs microseconds, and each wait more.
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/spring_forces.hpp>
 
 #include "runs/observables.hpp"
 #include "tests/support/direct_physics.hpp"
@@ -12,9 +14,9 @@
 namespace skein {
 namespace {
 
-/// Kernels, and copies and reductions that bring something to the host: what Kokkos tells its tools.
+/// Kernels, reductions that bring a number to the host, copies and fills, and waits: what Kokkos tells its tools.
 struct Launches {
-  int kernels = 0, reductions = 0, copies = 0;
+  int kernels = 0, reductions = 0, copies = 0, fences = 0;
   friend bool operator==(const Launches&, const Launches&) = default;
 };
 Launches counted;
@@ -26,6 +28,8 @@ void count_copy(Kokkos::Tools::SpaceHandle, const char*, const void*, Kokkos::To
   ++counted.copies;
 }
 
+void count_fence(const char*, std::uint32_t, std::uint64_t*) { ++counted.fences; }
+
 /// Counts from its beginning to its end.
 class Counting {
  public:
@@ -35,12 +39,14 @@ class Counting {
     Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(count_kernel);
     Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(count_reduction);
     Kokkos::Tools::Experimental::set_begin_deep_copy_callback(count_copy);
+    Kokkos::Tools::Experimental::set_begin_fence_callback(count_fence);
   }
   ~Counting() {
     Kokkos::Tools::Experimental::set_begin_parallel_for_callback(nullptr);
     Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(nullptr);
     Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(nullptr);
     Kokkos::Tools::Experimental::set_begin_deep_copy_callback(nullptr);
+    Kokkos::Tools::Experimental::set_begin_fence_callback(nullptr);
   }
 };
 
@@ -90,8 +96,62 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsOneLaunchAndOneWait) {
     const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
     const Counting counting;
     EXPECT_EQ(physics.sections.find_faulty_node(position, 2.0), -1);
-    EXPECT_EQ(counted, (Launches{.kernels = 0, .reductions = 1, .copies = 0}));
+    EXPECT_EQ(counted.reductions, 1);
+    EXPECT_EQ(counted.kernels + counted.copies, 0);
   }
+}
+
+/// The paper's shortest fiber, its sums and springs as GPUs make them.
+Physics make_device_physics(const SceneConfig& scene) {
+  Physics physics = make_physics(scene);
+  physics.mobility = std::make_unique<DirectMobility>(physics.viscosity, Precision::in_double, KernelPath::device);
+  physics.forces.front() = std::make_unique<SpringForces>(physics.fibers, KernelPath::device);
+  return physics;
+}
+
+// Flow, springs, pairs, and their partial sums. Nothing is filled with zeros, nothing comes to the host.
+TEST(LaunchCounts, OfAnEvaluationByDirectSumsOnADeviceAreFourAndNoWait) {
+  SceneConfig scene;
+  scene.fibers.emplace_back();
+  Physics physics = make_device_physics(scene);
+  FiberDynamics dynamics(physics);
+  const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
+  const Vectors velocity("velocity", position.extent(0));
+  dynamics.compute_velocity(0.0, position, velocity);
+  const Counting counting;
+  dynamics.compute_velocity(0.0, position, velocity);
+  EXPECT_EQ(counted, (Launches{.kernels = 4}));
+}
+
+struct CountedStep {
+  int stages = 0;
+  Launches launches;
+};
+
+/// Of RKC2's second step.
+CountedStep count_rkc2_step(const double dt) {
+  SceneConfig scene;
+  scene.fibers.emplace_back();
+  scene.time.step = dt;
+  Physics physics = make_device_physics(scene);
+  FiberDynamics dynamics(physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
+  State state{0.0, 0, to_device("position", make_surface_nodes(physics.fibers))};
+  integrator->advance(state, 1.0);
+  const Counting counting;
+  const int stages = integrator->advance(state, 1.0).stages;
+  return {stages, counted};
+}
+
+// A stage is an evaluation and one combination; waits belong to steps, for their error and for faults.
+TEST(LaunchCounts, OfAStageOfRkc2OnADeviceAreFiveAndNoWait) {
+  const CountedStep few = count_rkc2_step(1e-3), many = count_rkc2_step(4e-3);
+  const int more = many.stages - few.stages;
+  ASSERT_GT(more, 2);
+  EXPECT_EQ(many.launches.kernels - few.launches.kernels, 5 * more);
+  EXPECT_EQ(many.launches.reductions, few.launches.reductions);
+  EXPECT_EQ(many.launches.copies, few.launches.copies);
+  EXPECT_EQ(many.launches.fences, few.launches.fences);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/fibers/fiber.hpp>
 
 #include "tests/unit/stokeslet_case.hpp"
 
@@ -215,10 +216,58 @@ TEST(StokesletTeams, ResultDoesNotDependOnTheTeamSize) {
   const reference::PointForces from = make_sources(Cloud::tube, 301, {}, 7);
   for (const Precision precision : {Precision::in_double, Precision::in_single}) {
     const std::vector<Vec3> rest(from.position.size());
-    const auto alone = add_velocity(Sum::teams, precision, from, from.position, rest, 1);
-    const auto together = add_velocity(Sum::teams, precision, from, from.position, rest, 2);
+    const auto alone = add_velocity_by_teams<HostSpace>(precision, from, from.position, rest, {2, 1});
+    const auto together = add_velocity_by_teams<HostSpace>(precision, from, from.position, rest, {2, 2});
     EXPECT_EQ(alone, together);
   }
+}
+
+TEST(StokesletTeams, AgreesWithTheReferenceForAnyNumberOfRuns) {
+  const reference::PointForces from = make_sources(Cloud::tube, 1301, {}, 7);
+  const auto exact = reference::compute_stokeslet_velocity(from, from.position, test_viscosity);
+  const std::vector<Vec3> rest(from.position.size());
+  for (const int n_runs : {1, 2, 5, 11, 40, 1301})
+    for (const Precision precision : {Precision::in_double, Precision::in_single})
+      EXPECT_LT(reference::relative_error(
+                    add_velocity_by_teams<ExecSpace>(precision, from, from.position, rest, {.n_runs = n_runs}), exact),
+                precision == Precision::in_double ? 4e-15 : 2e-6)
+          << n_runs << " runs";
+}
+
+// What is promised of pairs in single precision: the 2-norm of all errors, for the blobs and nodes of the paper's
+// fiber.
+TEST(StokesletTeams, SinglePairsOfAFiberMissByLessThan3e7) {
+  FiberConfig config;
+  config.sections = 80;
+  const std::vector<Fiber> fibers = make_fibers({config});
+  reference::Random random(5);
+  const std::vector<Vec3> nodes = make_surface_nodes(fibers);
+  const reference::PointForces from{nodes, reference::make_random_vectors(static_cast<int>(nodes.size()), 1.0, random),
+                                    make_blobs(fibers)};
+  const auto exact = reference::compute_stokeslet_velocity(from, from.position, test_viscosity);
+  const auto got = add_velocity_by_teams<ExecSpace>(Precision::in_single, from, from.position,
+                                                    std::vector<Vec3>(nodes.size()), {.n_runs = 23});
+  double difference = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < got.size(); ++i) {
+    difference += dot(got[i] - exact[i], got[i] - exact[i]);
+    size += dot(exact[i], exact[i]);
+  }
+  EXPECT_LT(std::sqrt(difference / size), 3e-7);
+  EXPECT_GT(std::sqrt(difference / size), 1e-9) << "these pairs were not single";
+}
+
+// Twice as many threads as the device runs at once, and at least 64 sources a team: the splits that were fastest on an
+// H100 (270 336 threads).
+TEST(StokesletTeams, SplitIsThatOfTheFastestSumsMeasured) {
+  constexpr int h100 = 132 * 2048;
+  EXPECT_EQ(choose_team_split(h100, 1440, 1440).n_runs, 23);
+  EXPECT_EQ(choose_team_split(h100, 5418, 5418).n_runs, 85);
+  EXPECT_EQ(choose_team_split(h100, 23634, 23634).n_runs, 23);
+  EXPECT_EQ(choose_team_split(h100, 378144, 378144).n_runs, 2);
+  EXPECT_EQ(choose_team_split(h100, 10'000'000, 10'000'000).n_runs, 1);
+  EXPECT_EQ(choose_team_split(h100, 1, 64).n_runs, 1);
+  EXPECT_EQ(choose_team_split(h100, 1'000'000, 64).n_runs, 8448);
+  EXPECT_EQ(choose_team_split(1, 3, 5).n_runs, 1);
 }
 
 TEST(SymmetricStokeslet, RefusesTooFewNodes) {

@@ -37,8 +37,10 @@ class FiberDynamics final : public RightHandSide {
   /// Null where a fiber is rigid: what keeps it so answers every displacement of the others.
   Linearization* linearization() override;
 
-  /// Wall time spent in evaluations, by parts, seconds. On a device, where waiting costs, an estimate from one in
-  /// sixteen of them.
+  /// Evaluations are timed from here on, or no longer: each of their parts then waits for the device to finish.
+  void time_parts(const bool times_parts) { times_parts_ = times_parts; }
+
+  /// Wall time of the parts of evaluations that were timed, seconds.
   struct Seconds {
     double fluid = 0.0;
     double springs_and_flow = 0.0;
@@ -56,6 +58,7 @@ class FiberDynamics final : public RightHandSide {
   ConstrainedMotion motion_;
   Vectors force_, places_;
   std::int64_t evaluations_ = 0;
+  bool times_parts_ = false;
   Seconds seconds_;
   std::unique_ptr<FiberLinearization> linearization_;
 };

@@ -1,19 +1,13 @@
 #pragma once
 
 #include <skein/core/far_field.hpp>
+#include <skein/core/kernel_path.hpp>
 #include <skein/core/precision.hpp>
 
 #include <string>
 #include <vector>
 
 namespace skein {
-
-/// Where the fast multipole method's arrays and loops are.
-enum class FmmPath {
-  automatic,  ///< on the host where kernels run there, else on the device
-  host,       ///< the processor's vector units; arrays of a device are copied
-  device,     ///< plain kernels in the execution space; the host has them for tests, and is slow at them
-};
 
 /// Where velocities are asked for.
 enum class FmmTargets {
@@ -36,7 +30,7 @@ struct FmmOptions {
   int n_checked_targets = 64;
   FmmTargets other_targets = FmmTargets::apart;  ///< where targets lie that are not the sources' own array
   OnMiss on_miss = OnMiss::raise_order;
-  FmmPath path = FmmPath::automatic;
+  KernelPath path = KernelPath::automatic;
 };
 
 /// What an evaluation uses.

@@ -43,6 +43,6 @@ class FmmSum {
 };
 
 /// @param path  automatic: on the host where kernels run there, else on the device
-std::unique_ptr<FmmSum> make_fmm_sum(FmmPath path);
+std::unique_ptr<FmmSum> make_fmm_sum(KernelPath path);
 
 }  // namespace skein

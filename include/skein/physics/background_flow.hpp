@@ -21,6 +21,12 @@ class BackgroundFlow {
   /// @throws Error(internal) if the extents differ
   virtual void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const = 0;
 
+  /// velocity = the flow at each position, in as few launches.
+  virtual void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) const {
+    Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
+    add_velocity(time, position, velocity);
+  }
+
   /// At one position, exactly.
   virtual VelocityGradient gradient(double time, Vec3 position) const = 0;
 

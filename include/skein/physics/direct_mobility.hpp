@@ -1,17 +1,19 @@
 #pragma once
 
+#include <skein/core/kernel_path.hpp>
 #include <skein/core/precision.hpp>
 #include <skein/physics/mobility.hpp>
 
 namespace skein {
 
 /// The regularized Stokeslets of all sources, summed pair by pair: O(n_sources n_targets), exact to rounding in double,
-/// to about 1e-6 in single precision (positions, differences and long sums stay double).
+/// to about 1e-6 in single precision (positions, differences and long sums stay double). Sums repeat to the bit on one
+/// machine; devices that run other numbers of threads at once cut them up otherwise.
 class DirectMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
   /// @param precision  automatic: double
-  DirectMobility(double viscosity, Precision precision);
+  DirectMobility(double viscosity, Precision precision, KernelPath path = KernelPath::automatic);
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   double expected_error() const override { return precision_ == Precision::in_single ? 1e-6 : 0.0; }
@@ -22,6 +24,8 @@ class DirectMobility final : public Mobility {
  private:
   double viscosity_;
   Precision precision_;
+  bool by_teams_;
+  Scalars partial_;  ///< scratch of the teams
   double pairs_ = 0.0;
 };
 

@@ -15,7 +15,7 @@ namespace skein {
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
-/// the approximations). The tree is rebuilt in every call, operators are kept. FmmPath says where it runs. A node whose
+/// the approximations). The tree is rebuilt in every call, operators are kept. KernelPath says where it runs. A node whose
 /// position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J. Comput.
 /// Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {

@@ -37,6 +37,12 @@ class Force {
   /// Adds the force on each node. @param position  length
   virtual void add_forces(double time, const ConstVectors& position, const Vectors& force) const = 0;
 
+  /// The same in place of what was in `force`: the first of several does this.
+  virtual void compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
+    Kokkos::deep_copy(ExecSpace(), force, 0.0);
+    add_forces(time, position, force);
+  }
+
   /// Adds the first-order change of these forces when nodes move by `displacement`, length.
   virtual void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
                                  const Vectors& change) const = 0;

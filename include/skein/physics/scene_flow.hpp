@@ -15,6 +15,7 @@ class SceneFlow final : public BackgroundFlow {
   explicit SceneFlow(const std::vector<FlowConfig>& flows);
 
   void add_velocity(double time, const ConstVectors& position, const Vectors& velocity) const override;
+  void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) const override;
   VelocityGradient gradient(double time, Vec3 position) const override;
   double typical_rate() const override;
   double time_scale() const override;

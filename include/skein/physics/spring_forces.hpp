@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/core/kernel_path.hpp>
 #include <skein/fibers/spring_network.hpp>
 #include <skein/physics/force.hpp>
 
@@ -14,9 +15,10 @@ struct SpringArrays;
 /// Elastic forces of all fibers' springs.
 class SpringForces final : public Force {
  public:
-  explicit SpringForces(const std::vector<Fiber>& fibers);
+  /// @param path  device: a thread for each node; a host that is asked for this is slow at it
+  explicit SpringForces(const std::vector<Fiber>& fibers, KernelPath path = KernelPath::automatic);
   /// @param networks  one for each fiber, their nodes one after the other without gaps
-  explicit SpringForces(const std::vector<SpringNetwork>& networks);
+  explicit SpringForces(const std::vector<SpringNetwork>& networks, KernelPath path = KernelPath::automatic);
   ~SpringForces() override;
   SpringForces(SpringForces&&) noexcept;
   SpringForces& operator=(SpringForces&&) noexcept;
@@ -25,6 +27,7 @@ class SpringForces final : public Force {
 
   /// A spring of length zero adds zero, not NaN.
   void add_forces(double time, const ConstVectors& position, const Vectors& force) const override;
+  void compute_forces(double time, const ConstVectors& position, const Vectors& force) const override;
   void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override;
   void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const override;
@@ -35,6 +38,7 @@ class SpringForces final : public Force {
 
  private:
   std::unique_ptr<SpringArrays<ExecSpace>> springs_;
+  bool by_nodes_;
   std::vector<int> n_sections_;  ///< [n_fibers]
   Scalars section_energy_;
 };

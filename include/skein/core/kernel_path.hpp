@@ -1,0 +1,12 @@
+#pragma once
+
+namespace skein {
+
+/// Where arrays and loops are.
+enum class KernelPath {
+  automatic,  ///< on the host where kernels run there, else on the device
+  host,       ///< the processor's vector units; where arrays of a device may be copied to
+  device,     ///< plain kernels in the execution space; the host has them for tests, and is slow at them
+};
+
+}  // namespace skein
