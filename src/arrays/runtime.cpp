@@ -1,3 +1,4 @@
+#include <skein/arrays/default_path.hpp>
 #include <skein/arrays/runtime.hpp>
 #include <skein/arrays/types.hpp>
 #include <skein/core/error.hpp>
@@ -45,6 +46,8 @@ Runtime::Runtime(const int threads) {
   }
 }
 Runtime::~Runtime() { Kokkos::finalize(); }
+
+KernelPath default_path() { return on_host<ExecSpace> ? KernelPath::host : KernelPath::device; }
 
 std::string describe_backend() {
   if constexpr (on_host<ExecSpace>) return host_threads();

@@ -20,7 +20,7 @@ bool DeviceFmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chose
   space_.fence();
   statistics.tree_seconds = watch.lap();
   // Every pair is met from both sides, by the direct sum on a device, too.
-  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, false) > 1.0) return false;
+  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, false, options) > 1.0) return false;
   if (own_velocity_.extent(0) == nodes_.target.extent(0))
     Kokkos::deep_copy(space_, own_velocity_, 0.0);
   else

@@ -139,7 +139,8 @@ bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, con
   count_work(plan);
   statistics.tree_seconds = watch.lap();
   is_symmetric_ = tree_.has_same_nodes() && blobs_.smallest == blobs_.largest;
-  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_) > 1.0) return false;
+  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_, options) > 1.0)
+    return false;
   if (own_velocity_.extent(0) == nodes_.target.extent(0))
     Kokkos::deep_copy(own_velocity_, 0.0);
   else

@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/core/math.hpp>
 #include <skein/fmm/fmm_plan.hpp>
+#include <skein/fmm/machine_rates.hpp>
 
 #include <fmt/format.h>
 
@@ -194,7 +195,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const i
                          : plan.far_in_single                           ? std::max(row->cutoff, single_cutoff)
                                                                         : row->cutoff;
   plan.transfer_tolerance = transfer_share * row->error;
-  plan.leaf_size = options.leaf_size > 0 ? options.leaf_size : row->leaf_size;
+  plan.leaf_size = options.leaf_size > 0 ? options.leaf_size
+                                         : math::larger(row->leaf_size, machine_rates(options.path).least_leaf_size);
   plan.expected_error = excess_of(targets) * (plan.far_in_single ? std::max(row->error, single_error) : row->error);
 
   const double needed = smallest_half_width(options, max_blob);
@@ -224,21 +226,24 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
   return text + fmt::format(", {:g} allowed", options.tolerance);
 }
 
-double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric) {
-  // Nanoseconds on one core with wide vectors; only their ratios matter.
-  const double near_pair = is_symmetric ? plan.near_in_single ? 0.35 : 0.68 : plan.near_in_single ? 0.40 : 0.75;
-  const double surface_pair = plan.far_in_single ? 0.45 : 0.85;
-  const double product = plan.far_in_single ? 1.0 / 60.0 : 1.0 / 30.0;  // per multiplication and addition, times two
-  const double transfer_work = 0.4;  // of thin factors, over that of the whole matrix
-  const double direct_pair = is_symmetric ? 0.63 : 0.77;
+double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric,
+                              const FmmOptions& options) {
+  const MachineRates& rates = machine_rates(options.path);
+  const double near_pair = (is_symmetric ? rates.symmetric_near_pair : rates.near_pair).of(plan.near_in_single);
   const double n_surface = 6.0 * (plan.order - 1) * (plan.order - 1) + 2.0;
   const double rank = plan.rank;
-  const double fmm = near_pair * work.near_pairs + surface_pair * n_surface * (work.n_sources + work.n_targets) +
-                     8.0 * product *
-                         (rank * rank * (transfer_work * work.far_pairs + 2.0 * work.n_boxes) +
+  const double n_nodes = work.n_sources + work.n_targets;
+  const double fmm = near_pair * work.near_pairs + rates.surface_pair.of(plan.far_in_single) * n_surface * n_nodes +
+                     8.0 * rates.product.of(plan.far_in_single) *
+                         (rank * rank * (rates.transfer_work * work.far_pairs + 2.0 * work.n_boxes) +
                           2.0 * rank * n_surface * work.n_boxes) +
-                     40.0 * (work.n_sources + work.n_targets) + 2e4;
-  return fmm / (direct_pair * work.n_sources * work.n_targets);
+                     rates.node * n_nodes + rates.tree;
+  const double n_pairs = work.n_sources * work.n_targets;
+  const Precision precision = options.precision == Precision::automatic
+                                  ? choose_direct_precision(rates, n_pairs, options.tolerance)
+                                  : options.precision;
+  const RateByPrecision& pair = is_symmetric ? rates.symmetric_direct_pair : rates.direct_pair;
+  return fmm / (rates.direct_sum + pair.of(precision == Precision::in_single) * n_pairs);
 }
 
 }  // namespace skein

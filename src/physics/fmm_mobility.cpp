@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/fmm/fmm_sum.hpp>
+#include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
 #include "kernels/node_checks.hpp"
@@ -51,7 +52,8 @@ double norm_at(const Vectors& velocity, const EvenSample& sample) {
 FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
     : viscosity_(viscosity),
       options_(options),
-      direct_(viscosity, options.precision),
+      direct_(viscosity, options.precision, options.path),
+      direct_in_single_(viscosity, Precision::in_single, options.path),
       sum_(make_fmm_sum(options.path)) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
   if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);
@@ -74,7 +76,7 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
   record_.order = 0;
   sum_->statistics.used_direct_sum = true;
   const FmmTargets targets = place_of(sources, target);
-  if (sums_directly(n_pairs, targets)) return direct_.add_velocity(sources, target, velocity);
+  if (sums_directly(n_pairs, targets)) return direct_sum_of(n_pairs).add_velocity(sources, target, velocity);
 
   if (!sum_->take(sources, target)) return Kokkos::deep_copy(velocity, std::numeric_limits<double>::quiet_NaN());
   while (evaluate(targets))
@@ -83,7 +85,14 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
       record_.order = sum_->statistics.plan.order;
       return sum_->add_to(velocity);
     }
-  direct_.add_velocity(sources, target, velocity);
+  direct_sum_of(n_pairs).add_velocity(sources, target, velocity);
+}
+
+DirectMobility& FmmMobility::direct_sum_of(const double n_pairs) {
+  const bool is_single =
+      options_.precision == Precision::automatic &&
+      choose_direct_precision(machine_rates(options_.path), n_pairs, options_.tolerance) == Precision::in_single;
+  return is_single ? direct_in_single_ : direct_;
 }
 
 FmmTargets FmmMobility::place_of(const Sources& sources, const ConstVectors& target) const {

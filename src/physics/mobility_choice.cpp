@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/node_orbits.hpp>
+#include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/mobility_choice.hpp>
 
 #include <fmt/format.h>
@@ -11,10 +12,6 @@
 
 namespace skein {
 namespace {
-
-/// Below this the fast multipole method gains less than a factor of two, most of it by single precision (bench_fmm
-/// crossover), and a direct sum is exact.
-constexpr double least_fmm_nodes = 1500;
 
 /// Leaves side by side, of which the first and the last do not touch.
 constexpr double least_cells = 3.0;
@@ -86,13 +83,18 @@ NodeOrbits find_orbits(const SceneConfig& scene) {
 /// makes the fast multipole method by about the root of that: half of its work is for sources, all of which remain.
 /// @param gain  of direct sums
 void choose_method(const SceneConfig& scene, const double gain, MobilityChoice& choice) {
+  const MachineRates& rates = machine_rates(choice.fmm.path);
   choice.fmm.direct_when_cheaper = true;
   const Size size = measure_size(scene);
   choice.is_direct = true;
-  const double least_nodes = least_fmm_nodes * std::sqrt(gain);
+  const double least_nodes = rates.least_fmm_nodes * std::sqrt(gain);
+  if (choice.precision == Precision::automatic)
+    choice.precision =
+        choose_direct_precision(rates, size.n_nodes * size.n_nodes / gain, scene.hydrodynamics.tolerance);
   if (size.n_nodes < least_nodes) {
-    choice.reason = fmt::format(
-        "chosen because it is exact, and below {:.4g} nodes little would be gained by any other", least_nodes);
+    choice.reason =
+        fmt::format("chosen because {}, and below {:.4g} nodes little would be gained by any other",
+                    choice.precision == Precision::in_single ? "the tolerance allows it" : "it is exact", least_nodes);
   } else if (needs_direct_sum(choice.fmm)) {
     choice.reason = fmt::format("chosen because tolerance = {:g} is below what the fast multipole method promises",
                                 choice.fmm.tolerance);
@@ -108,10 +110,11 @@ void choose_method(const SceneConfig& scene, const double gain, MobilityChoice& 
 
 }  // namespace
 
-MobilityChoice choose_mobility(const SceneConfig& scene) {
+MobilityChoice choose_mobility(const SceneConfig& scene, const KernelPath path) {
   MobilityChoice choice;
   choice.precision = scene.hydrodynamics.precision;
   choice.fmm = make_fmm_options(scene.hydrodynamics);
+  choice.fmm.path = path;
   const NodeOrbits orbits = find_orbits(scene);
   switch (scene.hydrodynamics.method) {
     case SumMethod::automatic:

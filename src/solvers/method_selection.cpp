@@ -27,19 +27,35 @@ double implicit_evaluations(const ControlOptions& options, const double dt, cons
          (1.0 + 6.0 * turn * turn);
 }
 
+/// What a step of RKC2 is expected to be, and to take.
+struct StabilizedStep {
+  double dt, stages;
+  std::string description;
+};
+
+StabilizedStep expect_step(const ControlOptions& options, const double spectral_radius) {
+  const double dt = options.fixed_step > 0.0 ? options.fixed_step : rkc2_step_share * largest_controlled_step(options);
+  const double stages = count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
+  return {dt, stages,
+          fmt::format(
+              "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
+              spectral_radius, spectral_radius * options.time_scale, dt, stages)};
+}
+
 }  // namespace
+
+MethodSelection select_explicit_method(const ControlOptions& options, const double spectral_radius,
+                                       const std::string& why) {
+  return {TimeMethod::rkc2, expect_step(options, spectral_radius).description + ", and " + why};
+}
 
 MethodSelection select_method(const ControlOptions& options, const double spectral_radius, const double factorization,
                               const double preconditioning) {
+  if (preconditioning < 0.0)
+    return select_explicit_method(options, spectral_radius, "there is no implicit method for this");
   const bool is_fixed = options.fixed_step > 0.0;
   const double largest = largest_controlled_step(options);
-  const double dt = is_fixed ? options.fixed_step : rkc2_step_share * largest;
-  const double stages = count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
-  const std::string stiffness = fmt::format(
-      "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
-      spectral_radius, spectral_radius * options.time_scale, dt, stages);
-  if (preconditioning < 0.0) return {TimeMethod::rkc2, stiffness + ", and there is no implicit method for this"};
-
+  const auto [dt, stages, stiffness] = expect_step(options, spectral_radius);
   const double implicit_dt =
       is_fixed ? options.fixed_step
                : std::min(implicit_step_share * largest, trbdf2_largest_step_ratio * options.time_scale);

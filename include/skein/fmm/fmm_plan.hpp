@@ -91,8 +91,8 @@ struct FmmWork {
   double n_boxes = 0.0;
 };
 
-/// Time of an evaluation over that of a direct sum, from measured rates of pairs and products.
-/// @param is_symmetric  sources are targets, with one blob: each pair is met once
-double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool is_symmetric);
+/// Time of an evaluation over that of a direct sum, from measured rates of pairs and products (machine_rates.hpp).
+/// @param is_symmetric  sources are targets, with one blob: a host meets each pair once
+double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool is_symmetric, const FmmOptions& options);
 
 }  // namespace skein

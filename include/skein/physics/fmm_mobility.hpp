@@ -15,9 +15,9 @@ namespace skein {
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
-/// the approximations). The tree is rebuilt in every call, operators are kept. KernelPath says where it runs. A node whose
-/// position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J. Comput.
-/// Phys. 196, 591 (2004).
+/// the approximations). The tree is rebuilt in every call, operators are kept. KernelPath says where it runs. A node
+/// whose position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J.
+/// Comput. Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
@@ -44,6 +44,8 @@ class FmmMobility final : public Mobility {
   FmmTargets place_of(const Sources& sources, const ConstVectors& target) const;
   /// True where direct sums are the rule for so many pairs, before a tree is built.
   bool sums_directly(double n_pairs, FmmTargets targets) const;
+  /// That stands in for the method, in the precision that the machine and the tolerance suggest.
+  DirectMobility& direct_sum_of(double n_pairs);
   /// Computes the sum of the arrays that were taken; false where a direct sum is cheaper.
   bool evaluate(FmmTargets targets);
   /// False where the sum, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
@@ -51,7 +53,7 @@ class FmmMobility final : public Mobility {
 
   double viscosity_;
   FmmOptions options_;
-  DirectMobility direct_;
+  DirectMobility direct_, direct_in_single_;
   std::unique_ptr<FmmSum> sum_;
   double pairs_ = 0.0;
   int raised_order_ = 0;            ///< that a check found necessary; 0: as planned

@@ -19,8 +19,9 @@ struct MobilityChoice {
   std::string orbits;  ///< by or for which nodes sums are made in a scene with a symmetry, in words; else empty
 };
 
-/// The same on every machine, so that a run can be repeated.
-MobilityChoice choose_mobility(const SceneConfig& scene);
+/// The same on every host, and the same on every device, so that a run can be repeated.
+/// @param path  automatic: for where this build's kernels run
+MobilityChoice choose_mobility(const SceneConfig& scene, KernelPath path = KernelPath::automatic);
 
 /// One line for direct sums with pairs of this precision; where it is automatic, that is double.
 std::string describe_direct_sum(Precision precision);

@@ -19,4 +19,7 @@ struct MethodSelection {
 MethodSelection select_method(const ControlOptions& options, double spectral_radius, double factorization,
                               double preconditioning);
 
+/// RKC2, whatever the stiffness. @param why  completes "..., and ..." behind what its steps take
+MethodSelection select_explicit_method(const ControlOptions& options, double spectral_radius, const std::string& why);
+
 }  // namespace skein
