@@ -19,5 +19,5 @@ skein_layer(dynamics PUBLIC core arrays scene fibers physics solvers PRIVATE ker
 skein_layer(io       HOST PUBLIC core scene fibers                                      EXTERNAL hdf5.h xxhash.h)
 skein_layer(analysis HOST PUBLIC core fibers                                            EXTERNAL Eigen)
 skein_layer(runs     PROGRAM PUBLIC core arrays scene fibers physics solvers dynamics io analysis)
-skein_layer(studies  HOST PROGRAM PUBLIC core scene fibers physics io analysis runs)
+skein_layer(studies  HOST PROGRAM PUBLIC core arrays scene fibers physics io analysis runs)
 skein_layer(cli      HOST PROGRAM PUBLIC core arrays scene physics io runs studies EXTERNAL CLI)

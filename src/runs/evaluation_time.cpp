@@ -4,29 +4,12 @@
 #include <skein/dynamics/spectral_radius_at.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/physics/direct_mobility.hpp>
-#include <skein/physics/fmm_mobility.hpp>
-
-#include "runs/sum_timing.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
 namespace skein {
-namespace {
-
-/// Forces without a direction in common, of one size.
-std::vector<Vec3> make_forces(const std::size_t n) {
-  std::vector<Vec3> force;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto k = static_cast<double>(i);
-    force.push_back({std::cos(1.3 * k), std::sin(2.1 * k), std::cos(0.7 * k)});
-  }
-  return force;
-}
-
-}  // namespace
 
 double time_calls(const std::function<void()>& call) {
   std::vector<double> seconds;
@@ -78,33 +61,6 @@ double time_direct_sum(const ConstVectors& position, const double viscosity) {
   }
   const double ratio = static_cast<double>(position.extent(0)) / static_cast<double>(n);
   return seconds * ratio * ratio;
-}
-
-std::vector<SumTiming> time_sums(const std::vector<FiberConfig>& fibers, const double viscosity,
-                                 const double tolerance) {
-  FmmOptions options;
-  options.tolerance = tolerance;
-  FmmMobility fmm(viscosity, options);
-  DirectMobility direct(viscosity, Precision::in_double);
-  std::vector<SumTiming> timings;
-  for (const FiberConfig& config : fibers) {
-    const auto fiber = make_fibers({config});
-    const auto nodes = make_surface_nodes(fiber);
-    const Sources sources{to_device("skein::time_sums::position", nodes),
-                          to_device("skein::time_sums::force", make_forces(nodes.size())),
-                          to_device("skein::time_sums::blob", make_blobs(fiber))};
-    const Vectors velocity("skein::time_sums::velocity", nodes.size());
-    const auto time_sum = [&](Mobility& mobility) {
-      return time_calls([&] { mobility.add_velocity(sources, sources.position, velocity); });
-    };
-    SumTiming timing;
-    timing.n_nodes = static_cast<int>(nodes.size());
-    timing.direct_seconds = time_sum(direct);
-    timing.fmm_seconds = time_sum(fmm);
-    timing.fmm_error = fmm.measure_error(sources, sources.position, timing.n_nodes);
-    timings.push_back(timing);
-  }
-  return timings;
 }
 
 }  // namespace skein

@@ -10,17 +10,11 @@
 #include <string>
 
 namespace skein {
-namespace {
-
-constexpr double paper_viscosity = 1.0;
-
-}  // namespace
-
 std::vector<SumTiming> time_paper_sums() {
   std::vector<FiberConfig> fibers;
   for (const int sections : {40, 80, 160, 301, 536, 900, 1313})
     fibers.push_back(make_paper_scene(sections, 1.0).fibers.front());
-  return time_sums(fibers, paper_viscosity, /*tolerance=*/1e-4);
+  return time_sums(fibers, /*tolerance=*/1e-4);
 }
 
 double find_crossover(const std::vector<SumTiming>& timings) {

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# What a GPU must show, in eight minutes, of programs that were built before (tools/build.sh cuda):
+#   perf/gpu.sh [folder of the build, build/cuda]
+# Every line that is asked for begins with "MUST" and ends with yes, no, or "not run"; the last one counts them. Output of
+# the programs themselves is kept in the folder that the first line names. Exit code: 0 where all that was run says yes.
+set -uo pipefail
+cd "$(dirname "$0")/.." || exit 1
+
+bin=${1:-build/cuda}/bin
+kept=$(mktemp -d "${TMPDIR:-/tmp}/skein_gpu.XXXXXX")
+n_yes=0 n_no=0 n_missing=0
+SECONDS=0
+
+say() { printf '%s\n' "$*"; }
+# must <what> <yes|no|not run>
+must() {
+  say "MUST $1: $2"
+  case $2 in
+    yes) n_yes=$((n_yes + 1)) ;;
+    no) n_no=$((n_no + 1)) ;;
+    *) n_missing=$((n_missing + 1)) ;;
+  esac
+}
+# yes_if command...
+yes_if() { if "$@"; then say yes; else say no; fi; }
+is_true() { yes_if awk "BEGIN { exit !($1) }"; }
+# passes <name> <seconds> command...: its exit code decides; a command that is cut off was not run.
+passes() {
+  local name=$1 limit=$2 begin=$SECONDS code
+  shift 2
+  if ((SECONDS + 5 > 470)); then must "$name" "not run"; return; fi
+  timeout "$limit" "$@" >"$kept/${name//[^A-Za-z0-9]/_}.log" 2>&1
+  code=$?
+  if ((code == 124)); then must "$name ($limit s were not enough)" "not run"
+  else must "$name ($((SECONDS - begin)) s)" "$(yes_if test "$code" = 0)"; fi
+}
+
+say "# $(nvidia-smi --query-gpu=name,driver_version --format=csv,noheader 2>/dev/null || say 'no nvidia-smi'), $(date +%F), output in $kept"
+"$bin/skein" --version
+
+# Direct sums: pairs/s at least, by nodes and precision; errors at most 3e-7.
+timeout 60 "$bin/bench_direct" 1440 5418 23634 94536 378144 >"$kept/direct.csv"
+while read -r nodes precision least; do
+  row=$(grep "^$nodes,\"general, $precision\"" "$kept/direct.csv" || true)
+  if [[ -z $row ]]; then must "direct sum, $nodes nodes, $precision" "not run"; continue; fi
+  rate=$(cut -d, -f4 <<<"$row") error=$(cut -d, -f6 <<<"$row")
+  must "direct sum, $nodes nodes, $precision: $rate pairs/s, at least $least; error $error" \
+    "$(is_true "$rate >= $least && $error <= 3e-7")"
+done <<'ROWS'
+1440 double 1.3e11
+5418 double 4e11
+23634 double 5e11
+94536 double 5e11
+378144 double 5e11
+1440 single 1.6e11
+5418 single 7e11
+23634 single 9.5e11
+94536 single 9.5e11
+378144 single 9.5e11
+ROWS
+
+# Whole runs, start to end, with frames and checkpoints: seconds at most.
+run() {
+  local name=$1 scene=$2 end=$3 most=$4
+  timeout $((3 * most + 10)) "$bin/skein" run "configs/$scene" -o "$kept/$name" --set "time.end=$end" >"$kept/$name.log" 2>&1
+}
+while read -r name scene end most; do
+  begin=$(date +%s.%N)
+  if run "$name" "$scene" "$end" "${most%.*}"; then
+    seconds=$(awk "BEGIN { print $(date +%s.%N) - $begin }")
+    must "$scene to t = $end in $most s: $seconds s" "$(is_true "$seconds <= $most")"
+  else must "$scene to t = $end" "no"; fi
+done <<'ROWS'
+first lagrone2019_L0139.toml 11 0.5
+snake lagrone2019_L0523.toml 26 4.0
+long lagrone2019_L228.toml 110 60.0
+ROWS
+run again lagrone2019_L0139.toml 11 1
+passes "two runs are equal to the bit" 20 /usr/bin/python3 tools/compare_runs.py "$kept/first" "$kept/again" --at-most 0
+
+# A run that is killed and goes on.
+"$bin/skein" run configs/lagrone2019_L0523.toml -o "$kept/killed" --set time.end=26 >"$kept/killed.log" 2>&1 &
+killed=$!
+sleep 1.5
+kill -KILL "$killed" 2>/dev/null
+wait "$killed" 2>/dev/null
+"$bin/skein" resume "$kept/killed" >>"$kept/killed.log" 2>&1
+passes "a killed run goes on to the same bits" 30 /usr/bin/python3 tools/compare_runs.py "$kept/snake" "$kept/killed" --at-most 0
+passes "and is whole" 30 "$bin/skein" verify "$kept/killed"
+
+# Tests: of direct sums, springs, tree and passes first.
+for test in test_launch_counts test_machine_rates test_stokeslet_direct test_spring_force test_combination test_sections \
+  test_device_octree test_device_fmm test_section_repulsion test_implicit_parts test_restart test_mobility; do
+  passes "$test" 60 "$bin/$test"
+done
+for tool in memcheck racecheck; do
+  passes "$tool of direct sums" 40 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_stokeslet_direct" \
+    --gtest_filter='StokesletTeams.*:*OtherTargets*teams*'
+  passes "$tool of springs" 30 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_spring_force"
+  passes "$tool of the tree" 40 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_device_octree"
+  passes "$tool of the passes" 40 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_device_fmm"
+done
+
+# Peaks, shares of them, steps by length; then, where time is left, the rates that choices are made by (src/fmm/machine_rates.cpp).
+timeout 90 "$bin/skein" bench machine | tee "$kept/machine.txt"
+if ((SECONDS < 440)); then timeout 40 "$bin/bench_rates"; fi
+say "# $n_yes yes, $n_no no, $n_missing not run, $SECONDS s"
+exit $((n_no > 0))
