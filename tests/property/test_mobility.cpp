@@ -206,6 +206,9 @@ std::unique_ptr<Mobility> make_direct_in_double(const double viscosity) {
 std::unique_ptr<Mobility> make_direct_in_single(const double viscosity) {
   return std::make_unique<DirectMobility>(viscosity, Precision::in_single);
 }
+std::unique_ptr<Mobility> make_direct_on_device(const double viscosity) {
+  return std::make_unique<DirectMobility>(viscosity, Precision::in_single, KernelPath::device);
+}
 
 /// Leaves small enough that these few nodes have a far field.
 std::unique_ptr<Mobility> make_fmm(const double viscosity, const double tolerance, const FarField far_field,
@@ -233,6 +236,7 @@ std::unique_ptr<Mobility> make_fmm_of_stokeslets(const double viscosity) {
 INSTANTIATE_TEST_SUITE_P(, MobilityProperties,
                          ::testing::Values(Row{"direct_in_double", make_direct_in_double, 1e-14},
                                            Row{"direct_in_single", make_direct_in_single, 5e-6},
+                                           Row{"direct_on_device", make_direct_on_device, 5e-6},
                                            Row{"fmm_in_single", make_fmm_in_single, 3e-5},
                                            Row{"fmm_in_double", make_fmm_in_double, 3e-6},
                                            Row{"fmm_on_device", make_fmm_on_device, 3e-5},
