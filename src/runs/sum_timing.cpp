@@ -12,7 +12,7 @@
 namespace skein {
 namespace {
 
-constexpr double viscosity = 1.0;
+constexpr double any_viscosity = 1.0;
 constexpr int n_checked = 300;
 
 /// The nodes of one fiber, and forces of one size without a direction in common.
@@ -52,7 +52,7 @@ class FiberSum {
 
 DirectTiming time_direct(const FiberConfig& fiber, const Precision precision) {
   const FiberSum sum(fiber);
-  DirectMobility mobility(viscosity, precision);
+  DirectMobility mobility(any_viscosity, precision);
   return {sum.n_nodes(), precision, sum.time(mobility)};
 }
 
@@ -62,7 +62,7 @@ FmmTiming time_fmm(const FiberConfig& fiber, const double tolerance) {
   const FiberSum sum(fiber);
   FmmOptions options;
   options.tolerance = tolerance;
-  FmmMobility mobility(viscosity, options);
+  FmmMobility mobility(any_viscosity, options);
   FmmTiming timing;
   timing.n_nodes = sum.n_nodes();
   timing.tolerance = tolerance;
