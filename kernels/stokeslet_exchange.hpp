@@ -4,6 +4,7 @@
 #include "kernels/stokeslet_block.hpp"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 // Pairs of nodes with one blob, both directions at once: S_eps is symmetric, so the weights are computed once.
@@ -19,63 +20,71 @@ inline constexpr int undivided_nodes = 48;  // at most block_targets
 template <class Real>
 using Side = NodeTile<Real, side_nodes>;
 
-/// What single precision takes of a coordinate.
-enum class Coordinates {
-  exact,    ///< both parts, where it matters
-  rounded,  ///< the high part: an error of 2^-25 of the distance from the sides' origin is allowed for
-};
-
 /// Velocities on a side of nodes, and on each node of one a lane for each of the others it has met.
 using SideVelocity = double[3][side_nodes];
 template <class Real>
 using SideReaction = Pack<Real>[3][side_nodes];
 
-/// Both directions between one pack of a and all of b, with the weights computed once. The first pack writes the
-/// reactions on b, the others add to them.
-template <bool with_low, bool is_first, class Real>
-void exchange_pack(const Side<Real>& a, const int i, const Side<Real>& b, const Real blob_squared,
-                   SideVelocity& velocity_a, SideReaction<Real>& reaction) {
-  const Pack<Real> x = simd::load_pack(&a.high[0][i]), y = simd::load_pack(&a.high[1][i]),
-                   z = simd::load_pack(&a.high[2][i]);
-  [[maybe_unused]] Pack<Real> x_low, y_low, z_low;
-  if constexpr (with_low) {
-    x_low = simd::load_pack(&a.low[0][i]);
-    y_low = simd::load_pack(&a.low[1][i]);
-    z_low = simd::load_pack(&a.low[2][i]);
-  }
-  const Pack<Real> gx = simd::load_pack(&a.force[0][i]), gy = simd::load_pack(&a.force[1][i]),
-                   gz = simd::load_pack(&a.force[2][i]);
-  Pack<Real> ux = {}, uy = {}, uz = {};
-  for (int j = 0; j < b.n_nodes; ++j) {
-    Pack<Real> dx = x - b.high[0][j];
-    Pack<Real> dy = y - b.high[1][j];
-    Pack<Real> dz = z - b.high[2][j];
-    if constexpr (with_low) {
-      dx += x_low - b.low[0][j];
-      dy += y_low - b.low[1][j];
-      dz += z_low - b.low[2][j];
+/// Packs of a that meet b at once: b is loaded for all of them, and the reactions on it. In double one pack alone keeps
+/// the multipliers busy; of packs of floats two gain a tenth, where there are registers for them.
+template <class Real>
+inline constexpr int exchanging_packs = std::is_same_v<Real, float>&& simd::bytes == 64 ? 2 : 1;
+
+/// Both directions between some packs of a and all of b, with the weights computed once. The first packs write the
+/// reactions on b, the others add to them, in the same order however many meet b at once.
+/// @tparam SideA, SideB  a Side, or what has its members (see PackedSide)
+template <int packs, bool with_low, bool is_first, class Real, class SideA, class SideB, class Velocity>
+void exchange_packs(const SideA& a, const int i, const SideB& b, const Real blob_squared, Velocity& velocity_a,
+                    SideReaction<Real>& reaction) {
+  constexpr int width = simd::width<Real>;
+  Pack<Real> x[packs][3], force[packs][3], u[packs][3] = {};
+  [[maybe_unused]] Pack<Real> x_low[packs][3];
+  for (int k = 0; k < packs; ++k)
+    for (int c = 0; c < 3; ++c) {
+      x[k][c] = simd::load_pack(&a.high[c][i + k * width]);
+      if constexpr (requires { a.shift; }) x[k][c] += a.shift[c];
+      if constexpr (with_low) x_low[k][c] = simd::load_pack(&a.low[c][i + k * width]);
+      force[k][c] = simd::load_pack(&a.force[c][i + k * width]);
     }
-    const auto weight = regularized_stokeslet::weights(dx, dy, dz, blob_squared);
-    regularized_stokeslet::add(weight, dx, dy, dz, b.force[0][j], b.force[1][j], b.force[2][j], ux, uy, uz);
-    // d changes its sign for the reaction, and enters twice.
-    if constexpr (is_first) reaction[0][j] = reaction[1][j] = reaction[2][j] = Pack<Real>{};
-    regularized_stokeslet::add(weight, dx, dy, dz, gx, gy, gz, reaction[0][j], reaction[1][j], reaction[2][j]);
+  for (int j = 0; j < b.n_nodes; ++j) {
+    SKEIN_UNROLL
+    for (int k = 0; k < packs; ++k) {
+      Pack<Real> dx = x[k][0] - b.high[0][j];
+      Pack<Real> dy = x[k][1] - b.high[1][j];
+      Pack<Real> dz = x[k][2] - b.high[2][j];
+      if constexpr (with_low) {
+        dx += x_low[k][0] - b.low[0][j];
+        dy += x_low[k][1] - b.low[1][j];
+        dz += x_low[k][2] - b.low[2][j];
+      }
+      const auto weight = regularized_stokeslet::weights(dx, dy, dz, blob_squared);
+      regularized_stokeslet::add(weight, dx, dy, dz, b.force[0][j], b.force[1][j], b.force[2][j], u[k][0], u[k][1],
+                                 u[k][2]);
+      // d changes its sign for the reaction, and enters twice.
+      if (is_first && k == 0) reaction[0][j] = reaction[1][j] = reaction[2][j] = Pack<Real>{};
+      regularized_stokeslet::add(weight, dx, dy, dz, force[k][0], force[k][1], force[k][2], reaction[0][j],
+                                 reaction[1][j], reaction[2][j]);
+    }
   }
-  simd::add_lanes(&velocity_a[0][i], ux);
-  simd::add_lanes(&velocity_a[1][i], uy);
-  simd::add_lanes(&velocity_a[2][i], uz);
+  for (int k = 0; k < packs; ++k)
+    for (int c = 0; c < 3; ++c) simd::add_lanes(&velocity_a[c][i + k * width], u[k][c]);
 }
 
 /// Both directions between two sides: u += S f, v += S g.
-template <bool with_low, class Real>
-void exchange(const Side<Real>& a, const Side<Real>& b, const Real blob_squared, SideVelocity& velocity_a,
-              SideVelocity& velocity_b) {
-  constexpr int width = simd::width<Real>;
+/// @tparam Velocity  SideVelocity, or three pointers to what is added to
+template <bool with_low, class Real, class SideA, class SideB, class Velocity>
+void exchange(const SideA& a, const SideB& b, const Real blob_squared, Velocity& velocity_a, Velocity& velocity_b) {
+  constexpr int width = simd::width<Real>, packs = exchanging_packs<Real>;
   alignas(simd::bytes) SideReaction<Real> reaction;
   for (auto& component : reaction) std::fill(component + b.n_nodes, component + b.n_padded(), Pack<Real>{});
-  exchange_pack<with_low, true>(a, 0, b, blob_squared, velocity_a, reaction);
-  for (int i = width; i < a.n_padded(); i += width)
-    exchange_pack<with_low, false>(a, i, b, blob_squared, velocity_a, reaction);
+  int i = math::smaller(packs * width, a.n_padded());
+  if (i == packs * width)
+    exchange_packs<packs, with_low, true>(a, 0, b, blob_squared, velocity_a, reaction);
+  else
+    exchange_packs<1, with_low, true>(a, 0, b, blob_squared, velocity_a, reaction);
+  for (; i + packs * width <= a.n_padded(); i += packs * width)
+    exchange_packs<packs, with_low, false>(a, i, b, blob_squared, velocity_a, reaction);
+  for (; i < a.n_padded(); i += width) exchange_packs<1, with_low, false>(a, i, b, blob_squared, velocity_a, reaction);
   for (int c = 0; c < 3; ++c)
     for (int j = 0; j < b.n_padded(); j += width)
       simd::add_lanes(&velocity_b[c][j], simd::sum_lanes_of_each<Real>(&reaction[c][j]));
@@ -93,7 +102,7 @@ void load_side(Side<Real>& side, const HostSources& nodes, const IndexRange run,
 }
 
 /// Each pair of nodes, one in each run, once.
-template <class Real, Coordinates coordinates = Coordinates::exact>
+template <class Real>
 void add_between(const HostSources& nodes, const IndexRange one, const IndexRange other,
                  const VectorView<HostSpace>& velocity) {
   const Real blob_squared = static_cast<Real>(nodes.blob(0) * nodes.blob(0));
@@ -107,7 +116,7 @@ void add_between(const HostSources& nodes, const IndexRange one, const IndexRang
       const IndexRange run_b{other.first + j, math::smaller(side_nodes, other.count - j)};
       load_side(b, nodes, run_b, origin);
       alignas(simd::bytes) SideVelocity velocity_b = {};
-      if (coordinates == Coordinates::exact && needs_low_parts(a, b, static_cast<double>(blob_squared)))
+      if (needs_low_parts(a, b, static_cast<double>(blob_squared)))
         exchange<Side<Real>::split>(a, b, blob_squared, velocity_a, velocity_b);
       else
         exchange<false>(a, b, blob_squared, velocity_a, velocity_b);
@@ -121,15 +130,15 @@ void add_between(const HostSources& nodes, const IndexRange one, const IndexRang
 /// other.
 /// @param image  the run itself, or as many nodes that are its images under a matrix that is its own inverse: then each
 ///               pair of a node and an image once, since that of the other node with the first one's image is its image
-template <class Real, Coordinates coordinates = Coordinates::exact>
+template <class Real>
 void add_within(const HostSources& nodes, const IndexRange run, const IndexRange image,
                 const VectorView<HostSpace>& velocity) {
   if (run.count > undivided_nodes) {
     const int half = math::ceil_div(run.count, 2 * tile_step) * tile_step, rest = run.count - half;
     const IndexRange second{run.first + half, rest}, second_image{image.first + half, rest};
-    add_within<Real, coordinates>(nodes, {run.first, half}, {image.first, half}, velocity);
-    add_between<Real, coordinates>(nodes, {run.first, half}, second_image, velocity);
-    add_within<Real, coordinates>(nodes, second, second_image, velocity);
+    add_within<Real>(nodes, {run.first, half}, {image.first, half}, velocity);
+    add_between<Real>(nodes, {run.first, half}, second_image, velocity);
+    add_within<Real>(nodes, second, second_image, velocity);
     return;
   }
   bool given = false;

@@ -1,7 +1,8 @@
 // The fast multipole method against this project's direct sum in the same run: error against order, speed against
 // error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
-// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [crossover] [uniform] [setup] [chart] [device] [tiny]
-// (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts only when asked.
+// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [step] [crossover] [uniform] [setup] [chart] [device]
+// [tiny] (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts only when
+// asked.
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
@@ -217,6 +218,33 @@ void bench_speed(const bool tiny) {
   }
 }
 
+/// Sums of a step that share a tree, beside sums that each make one, taking turns.
+void bench_step(const bool tiny) {
+  std::printf("\n# A tree for a step\nshape,nodes,tolerance,new_tree_ms,kept_tree_ms,ratio\n");
+  const int n = tiny ? 3600 : 23634, n_uniform = tiny ? 2000 : 100000;
+  for (const auto& [shape, nodes] : {std::pair{"straight", make_straight(n)}, std::pair{"spiral", make_spiral(n)},
+                                     std::pair{"uniform", make_uniform(n_uniform)}}) {
+    Case problem(nodes, shape[0] == 'u' ? 0.1 / std::cbrt(n_uniform) : fiber_blob);
+    for (const double tolerance : {1e-4, 1e-5, 1e-6}) {
+      FmmOptions options;
+      options.tolerance = tolerance;
+      FmmMobility anew(viscosity, options), kept(viscosity, options);
+      kept.begin_step();
+      const auto evaluate = [&problem](FmmMobility& fmm) {
+        return [&] {
+          problem.move_nodes();
+          problem.compute(fmm);
+        };
+      };
+      const std::vector<std::function<void()>> bodies = {evaluate(anew), evaluate(kept)};
+      const auto seconds = perf::median_seconds(tiny ? 1 : 15, bodies);
+      std::printf("%s,%d,%g,%.3f,%.3f,%.2f\n", shape, problem.n, tolerance, 1e3 * seconds[0], 1e3 * seconds[1],
+                  seconds[0] / seconds[1]);
+      std::fflush(stdout);
+    }
+  }
+}
+
 void bench_crossover() {
   std::printf("\n# Crossover at 1e-4\n%s\n", outcome_header);
   for (const int n : {720, 900, 1080, 1440, 2034, 2880, 4050, 5760})
@@ -362,6 +390,7 @@ int main(int argc, char** argv) {
   if (asked("pair")) bench_nearest_boxes(tiny);
   if (std::find(parts.begin(), parts.end(), "sixteen") != parts.end()) bench_sixteen_points();
   if (asked("speed")) bench_speed(tiny);
+  if (asked("step")) bench_step(tiny);
   if (asked("crossover") && !tiny) bench_crossover();
   if (asked("uniform")) bench_uniform(tiny);
   if (asked("setup")) bench_setup(tiny);

@@ -14,9 +14,9 @@ bool DeviceFmmEvaluator::take(const Sources& sources, const ConstVectors& target
 bool DeviceFmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
   LapTimer watch;
   FmmPlan plan = chosen;
-  tree_.build(space_, nodes_.position, nodes_.target, make_octree_rules(options, plan));
+  require_tree(make_octree_rules(options, plan));
   settle_plan(options, blobs_, tree_.largest_leaf, plan);
-  count_work(plan);
+  statistics.plan = plan;
   space_.fence();
   statistics.tree_seconds = watch.lap();
   // Every pair is met from both sides, by the direct sum on a device, too.
@@ -68,8 +68,15 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
   statistics.leaf_seconds = watch.lap();
 }
 
-void DeviceFmmEvaluator::count_work(const FmmPlan& plan) {
-  statistics.plan = plan;
+void DeviceFmmEvaluator::require_tree(const OctreeRules& rules) {
+  if (keeping_.may_serve(rules) && tree_.still_fits(space_, nodes_.position, nodes_.target)) return;
+  tree_.build(space_, nodes_.position, nodes_.target, rules);
+  keeping_.note_new_tree(rules);
+  ++statistics.n_trees;
+  count_work();
+}
+
+void DeviceFmmEvaluator::count_work() {
   statistics.n_boxes = tree_.n_boxes();
   statistics.n_levels = tree_.n_levels();
   statistics.n_leaves = tree_.n_target_leaves;

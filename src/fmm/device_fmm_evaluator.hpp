@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fmm/device_translations.hpp"
+#include "fmm/tree_fit.hpp"
 #include "fmm_choices.hpp"
 #include "operator_store.hpp"
 
@@ -15,6 +16,8 @@ class DeviceFmmEvaluator final : public FmmSum {
 
   bool take(const Sources& sources, const ConstVectors& target) override;
   double largest_blob() const override { return blobs_.largest; }
+  void begin_step() override { keeping_.begin_step(); }
+  void end_step() noexcept override { keeping_.end_step(); }
   bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) override;
   void add_to(const Vectors& velocity) const override;
   std::vector<Vec3> sample(const EvenSample& sample) const override;
@@ -31,13 +34,15 @@ class DeviceFmmEvaluator final : public FmmSum {
   template <class Real, class Field>
   void pass(const FmmPlan& plan, const Field& field, const DeviceLevels<ExecSpace, Real>& levels,
             DeviceCoefficients<ExecSpace, Real>& coefficients);
-  void count_work(const FmmPlan& plan);
+  void require_tree(const OctreeRules& rules);
+  void count_work();
 
   ExecSpace space_;
   int team_size_;
   UnsortedNodes<ExecSpace> nodes_;
   BlobRange blobs_{0.0, 0.0};
   DeviceOctree<ExecSpace> tree_;
+  TreeKeeping keeping_;
   DeviceNodes<ExecSpace> sorted_;
   InPrecision<double> in_double_;
   InPrecision<float> in_single_;

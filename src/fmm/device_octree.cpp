@@ -2,9 +2,11 @@
 
 #include <skein/core/error.hpp>
 
+#include "fmm/tree_fit.hpp"
 #include "kernels/node_checks.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -212,6 +214,16 @@ void DeviceOctree<Space>::build(const Space& space, const ConstVectorView<Space>
 }
 
 template <class Space>
+bool DeviceOctree<Space>::still_fits(const Space& space, const ConstVectorView<Space>& source,
+                                     const ConstVectorView<Space>& target) const {
+  if (source.extent_int(0) != n_sources || target.extent_int(0) != n_targets ||
+      are_same_nodes(source, target) != same_nodes)
+    return false;
+  return nodes_fit<Space>(space, Kokkos::subview(boxes, std::make_pair(0, n_boxes())), cube, {source, sources.order},
+                          same_nodes ? TreeNodes<Space>() : TreeNodes<Space>{target, targets.order});
+}
+
+template <class Space>
 double DeviceOctree<Space>::bytes() const {
   const double n_ints =
       static_cast<double>(target_leaves.extent(0) + near_end.extent(0) + count.extent(0) + sort_memory.place.extent(0));
@@ -220,9 +232,10 @@ double DeviceOctree<Space>::bytes() const {
          x_list.bytes() + touching.bytes() + x_direct.bytes();
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                           \
-  template void DeviceOctree<S>::build(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&, \
-                                       const OctreeRules&);                                            \
+#define SKEIN_INSTANTIATE(S)                                                                                       \
+  template void DeviceOctree<S>::build(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&,             \
+                                       const OctreeRules&);                                                        \
+  template bool DeviceOctree<S>::still_fits(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&) const; \
   template double DeviceOctree<S>::bytes() const;
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

@@ -17,6 +17,9 @@ struct DeviceOctree {
   void build(const Space& space, const ConstVectorView<Space>& source, const ConstVectorView<Space>& target,
              const OctreeRules& rules);
 
+  /// As Octree's.
+  bool still_fits(const Space& space, const ConstVectorView<Space>& source, const ConstVectorView<Space>& target) const;
+
   int n_levels() const { return static_cast<int>(level_first.size()) - 1; }
   int n_boxes() const { return level_first.back(); }
   IndexRange level(const int l) const {

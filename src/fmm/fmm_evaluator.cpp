@@ -3,6 +3,7 @@
 #include <skein/arrays/combination.hpp>
 
 #include <string>
+#include <type_traits>
 
 namespace skein {
 namespace {
@@ -62,10 +63,19 @@ void FmmEvaluator::add_leaves(const Field& field, const std::vector<const Operat
                                            own_velocity_);
     return;
   }
-  resize(near_velocity_, sorted_.target.extent_int(0), "skein::fmm_evaluator::near_velocity");
-  compute_near_velocities<Near>(sorted_, make_near_matches(tree_), near_velocity_);
-  add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients,
-                                         {tree_.one_way_sources(), near_velocity_}, tasks_, own_velocity_);
+  if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree_);
+  const int n_packed = near_matches_.n_packed();
+  if (near_velocity_.extent_int(0) != 3 * n_packed)
+    near_velocity_ =
+        HostScalars(Kokkos::view_alloc(std::string("skein::fmm_evaluator::near_velocity"), Kokkos::WithoutInitializing),
+                    3 * n_packed);
+  if constexpr (std::is_same_v<Near, float>)
+    single_near_tiles_.compute(sorted_, near_matches_, near_velocity_);
+  else
+    near_tiles_.compute(sorted_, near_matches_, near_velocity_);
+  add_leaf_velocities<Near, Real, Field>(
+      tree_, sorted_, field, levels, coefficients,
+      {tree_.one_way_sources(), near_velocity_, n_packed, near_matches_.leaf_first.data()}, tasks_, own_velocity_);
 }
 
 template <class Real, class Field>
@@ -104,8 +114,17 @@ void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, Operat
                             node_bytes() + tree_.bytes();
 }
 
-void FmmEvaluator::count_work(const FmmPlan& plan) {
-  statistics.plan = plan;
+void FmmEvaluator::require_tree(const OctreeRules& rules) {
+  if (keeping_.may_serve(rules) && tree_.still_fits(nodes_.position, nodes_.target)) return;
+  tree_.build(nodes_.position, nodes_.target, rules);
+  keeping_.note_new_tree(rules);
+  ++statistics.n_trees;
+  tasks_ = make_target_tasks(tree_);
+  near_matches_ = {};
+  count_work();
+}
+
+void FmmEvaluator::count_work() {
   statistics.n_boxes = static_cast<int>(tree_.boxes().size());
   statistics.n_levels = tree_.n_levels();
   statistics.n_leaves = static_cast<int>(tree_.target_leaves().size());
@@ -133,10 +152,9 @@ double FmmEvaluator::node_bytes() const {
 bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
   LapTimer watch;
   FmmPlan plan = chosen;
-  tree_.build(nodes_.position, nodes_.target, make_octree_rules(options, plan));
-  tasks_ = make_target_tasks(tree_);
+  require_tree(make_octree_rules(options, plan));
   settle_plan(options, blobs_, tree_.largest_leaf(), plan);
-  count_work(plan);
+  statistics.plan = plan;
   statistics.tree_seconds = watch.lap();
   is_symmetric_ = tree_.has_same_nodes() && blobs_.smallest == blobs_.largest;
   if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_, options) > 1.0)

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "fmm/fmm_near_matches.hpp"
-#include "fmm/fmm_translations.hpp"
+#include "fmm/near_tiles.hpp"
+#include "fmm/tree_fit.hpp"
 #include "fmm_choices.hpp"
 #include "operator_store.hpp"
 
@@ -20,6 +20,8 @@ class FmmEvaluator final : public FmmSum {
  public:
   bool take(const Sources& sources, const ConstVectors& target) override;
   double largest_blob() const override { return blobs_.largest; }
+  void begin_step() override { keeping_.begin_step(); }
+  void end_step() noexcept override { keeping_.end_step(); }
   bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) override;
   void add_to(const Vectors& velocity) const override;
   std::vector<Vec3> sample(const EvenSample& sample) const override;
@@ -35,21 +37,26 @@ class FmmEvaluator final : public FmmSum {
   template <class Near, class Real, class Field>
   void add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
                   const Coefficients<Real>& coefficients);
-  void count_work(const FmmPlan& plan);
+  void require_tree(const OctreeRules& rules);
+  void count_work();
   double node_bytes() const;
 
   HostNodes nodes_;
   BlobRange blobs_{0.0, 0.0};
   HostVectors own_velocity_;
   Octree tree_;
+  TreeKeeping keeping_;
   SortedNodes sorted_;
   bool is_symmetric_ = false;  ///< sources are targets, with one blob
-  HostVectors near_velocity_;
+  NearTiles<double> near_tiles_;
+  NearTiles<float> single_near_tiles_;
+  HostScalars near_velocity_;
   OperatorStore<double> operators_;
   OperatorStore<float> single_operators_;
   Coefficients<double> coefficients_;
   Coefficients<float> single_coefficients_;
   std::vector<TargetTask> tasks_;
+  NearMatches near_matches_;  ///< of the tree, once they were needed
 };
 
 }  // namespace skein

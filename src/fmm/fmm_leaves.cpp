@@ -152,8 +152,11 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
     const Vec3 center = tree.center(box);
     LeafSum sum = {};
     if (near.velocity.extent(0) > 0)
-      for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < task.targets.count; ++i) sum.velocity[c][i] = near.velocity(task.targets.first + i, c);
+      for (int c = 0; c < 3; ++c) {
+        const double* velocity = &near.velocity(static_cast<std::ptrdiff_t>(c) * near.n_packed +
+                                                near.leaf_first[task.leaf] + task.targets.first - box.targets.first);
+        for (int i = 0; i < task.targets.count; ++i) sum.velocity[c][i] = velocity[i];
+      }
     if (near.sources.size(task.leaf) > 0) {
       LeafTargets<Near> targets;
       targets.load(nodes.target, task.targets, center, 1.0);

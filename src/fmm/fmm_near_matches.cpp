@@ -30,9 +30,13 @@ NearMatches make_near_matches(const Octree& tree) {
   NearMatches near;
   const int n_leaves = static_cast<int>(tree.target_leaves().size());
   std::vector<int> first_tile;
+  near.packed_first.push_back(0);
   for (const int leaf : tree.target_leaves()) {
     first_tile.push_back(static_cast<int>(near.tiles.size()));
+    near.leaf_first.push_back(near.n_packed());
     cut_leaf(tree.boxes()[static_cast<std::size_t>(leaf)].sources, near.tiles);
+    for (auto tile = static_cast<std::size_t>(first_tile.back()); tile < near.tiles.size(); ++tile)
+      near.packed_first.push_back(near.n_packed() + math::ceil_div(near.tiles[tile].count, tile_step) * tile_step);
   }
   first_tile.push_back(static_cast<int>(near.tiles.size()));
   const auto tiles_of = [&](const int leaf) {
@@ -53,22 +57,5 @@ NearMatches make_near_matches(const Octree& tree) {
   count_turns(static_cast<int>(near.tiles.size()), near.matches);
   return near;
 }
-
-template <class Near>
-void compute_near_velocities(const SortedNodes& nodes, const NearMatches& near, const HostVectors& velocity) {
-  Kokkos::deep_copy(velocity, 0.0);
-  const HostSources sources{nodes.position, nodes.force, nodes.blob, 1.0};
-  const auto run_of = [&](const int tile) { return near.tiles[static_cast<std::size_t>(tile)]; };
-  play_in_order("skein::compute_near_velocities", HostSpace(), static_cast<int>(near.tiles.size()), near.matches,
-                [&](const Match& match) {
-                  if (match.one == match.other)
-                    add_within<Near, Coordinates::rounded>(sources, run_of(match.one), run_of(match.one), velocity);
-                  else
-                    add_between<Near, Coordinates::rounded>(sources, run_of(match.one), run_of(match.other), velocity);
-                });
-}
-
-template void compute_near_velocities<double>(const SortedNodes&, const NearMatches&, const HostVectors&);
-template void compute_near_velocities<float>(const SortedNodes&, const NearMatches&, const HostVectors&);
 
 }  // namespace skein

@@ -3,21 +3,25 @@
 #include "fmm/fmm_translations.hpp"
 #include "kernels/ordered_matches.hpp"
 
+#include <vector>
+
 namespace skein {
 
-/// The near field of nodes that are sources and targets alike, each pair of nodes once: tiles of leaves, and who meets
-/// whom in which order.
+/// Who meets whom in the near field of nodes that are sources and targets alike, each pair of nodes once: tiles of
+/// leaves, and the order in which they meet.
+///
+/// In the packed order, nodes stand as in the tree, with places left free behind the last of each leaf: all tiles begin
+/// at a multiple of tile_step.
 struct NearMatches {
   std::vector<IndexRange> tiles;  ///< in the order of the tree
   std::vector<Match> matches;
+  std::vector<int> packed_first;  ///< per tile its first place in the packed order; at the end, the number of places
+  std::vector<int> leaf_first;    ///< per target leaf its first place in the packed order
+
+  int n_packed() const { return packed_first.back(); }
 };
 
 /// @param tree  of nodes that are sources and targets alike
 NearMatches make_near_matches(const Octree& tree);
-
-/// velocity([n, 3] in the order of the tree) = what leaves exchange with their partners. One blob for all nodes; in
-/// single precision coordinates are rounded on the scale of a leaf.
-template <class Near>
-void compute_near_velocities(const SortedNodes& nodes, const NearMatches& near, const HostVectors& velocity);
 
 }  // namespace skein

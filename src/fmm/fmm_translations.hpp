@@ -44,7 +44,9 @@ void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Fi
 /// The near field of the leaves' targets: what is there already, and what is still to be summed.
 struct NearField {
   const ListOfLists<IndexRange>& sources;  ///< per target leaf
-  HostVectors velocity;                    ///< [n_targets, 3] in the order of the tree, or empty
+  HostScalars velocity;                    ///< [3][n_packed] in the packed order of NearMatches, or empty
+  int n_packed = 0;
+  const int* leaf_first = nullptr;  ///< per target leaf its first place in the packed order
 };
 
 /// velocity(original index) += near field + far field of the coefficients, leaf by leaf.

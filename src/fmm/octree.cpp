@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 
 #include "fmm/morton.hpp"
+#include "fmm/tree_fit.hpp"
 #include "kernels/node_checks.hpp"
 
 #include <algorithm>
@@ -100,6 +101,15 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
   }
   split_boxes();
   build_lists(rules);
+}
+
+bool Octree::still_fits(const Nodes& source, const Nodes& target) const {
+  if (source.extent(0) != source_order_.extent(0) || target.extent(0) != target_order_.extent(0) ||
+      are_same_nodes(source, target) != same_nodes_)
+    return false;
+  const TreeNodes<HostSpace> sources{source, source_order_}, targets{target, target_order_};
+  return nodes_fit<HostSpace>(HostSpace(), Kokkos::View<const Box*, HostSpace>(boxes_.data(), boxes_.size()), cube_,
+                              sources, same_nodes_ ? TreeNodes<HostSpace>() : targets);
 }
 
 void Octree::split_boxes() {

@@ -27,13 +27,16 @@ struct ListOfLists {
 /// An adaptive octree over sources and targets, with the interaction lists of the fast multipole method
 /// (U, V, W, X of Ying, Biros and Zorin, J. Comput. Phys. 196, 2004). On the host.
 ///
-/// Coincident and collinear nodes are fine: the depth is limited. The tree is a function of the positions alone, so a
-/// restarted run meets the same sums. Memory is kept between builds.
+/// Coincident and collinear nodes are fine: the depth is limited. The tree is a function of the positions that it was
+/// built for. Memory is kept between builds.
 class Octree {
  public:
   /// @param source, target  [n, 3], length; the same array where the sources are the targets
   void build(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target,
              const OctreeRules& rules);
+
+  /// True where the tree that was built last holds these nodes, moved since then by little enough: see nodes_fit.
+  bool still_fits(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target) const;
 
   const std::vector<Box>& boxes() const { return boxes_; }
   int n_levels() const { return static_cast<int>(level_first_.size()) - 1; }

@@ -13,6 +13,8 @@ struct OctreeRules {
   double min_half_width = 0.0;        ///< no leaf is smaller, length
   bool has_quantized_cells = false;   ///< sides in steps, for operators that depend on them and are to be kept
   int min_sources_for_expansion = 0;  ///< fewer sources (or targets) than this are summed directly across W and X lists
+
+  bool operator==(const OctreeRules&) const = default;
 };
 
 /// Empty until nodes have widened it.

@@ -1,5 +1,7 @@
 #include "runs/fault_injection.hpp"
 
+#include <skein/solvers/right_hand_side_decorator.hpp>
+
 #include "runs/test_order.hpp"
 
 #include <cmath>
@@ -28,30 +30,23 @@ struct Fault {
 };
 
 /// Spoils positions or velocities.
-class FaultyDynamics final : public RightHandSide {
+class FaultyDynamics final : public RightHandSideDecorator {
  public:
-  FaultyDynamics(RightHandSide& dynamics, Fault fault) : dynamics_(dynamics), fault_(fault) {}
+  FaultyDynamics(RightHandSide& dynamics, Fault fault) : RightHandSideDecorator(dynamics), fault_(fault) {}
 
   void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
     if (fault_.is_due(FaultOrder::Target::position)) {
       const Vectors spoiled = copy(position);
       spoil(spoiled, fault_.order.step);
-      dynamics_.compute_velocity(time, spoiled, velocity);
+      inner_.compute_velocity(time, spoiled, velocity);
       return;
     }
-    dynamics_.compute_velocity(time, position, velocity);
+    inner_.compute_velocity(time, position, velocity);
     ExecSpace().fence();
     if (fault_.is_due(FaultOrder::Target::velocity)) spoil(velocity, fault_.order.step);
   }
-  std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
-  void project(const Vectors& position) override { dynamics_.project(position); }
-  std::int64_t evaluations() const override { return dynamics_.evaluations(); }
-  const TimeCourse& time_course() const override { return dynamics_.time_course(); }
-  void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
-  Linearization* linearization() override { return dynamics_.linearization(); }
 
  private:
-  RightHandSide& dynamics_;
   Fault fault_;
 };
 
@@ -66,6 +61,8 @@ class FaultyMobility final : public Mobility {
     spoil(spoiled, fault_.order.step);
     mobility_->add_velocity({sources.position, spoiled, sources.blob}, target, velocity);
   }
+  void begin_step() override { mobility_->begin_step(); }
+  void end_step() noexcept override { mobility_->end_step(); }
   double expected_error() const override { return mobility_->expected_error(); }
   double pairs() const override { return mobility_->pairs(); }
   std::string describe() const override { return mobility_->describe(); }

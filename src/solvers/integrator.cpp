@@ -4,8 +4,24 @@
 
 namespace skein {
 
+namespace {
+
+class StepScope {
+ public:
+  explicit StepScope(RightHandSide& rhs) : rhs_(rhs) { rhs_.begin_step(); }
+  StepScope(const StepScope&) = delete;
+  StepScope& operator=(const StepScope&) = delete;
+  ~StepScope() { rhs_.end_step(); }
+
+ private:
+  RightHandSide& rhs_;
+};
+
+}  // namespace
+
 StepReport Integrator::advance(State& state, const double end) {
   before_.take(*this, rhs_);
+  const StepScope scope(rhs_);
   try {
     return take_step(state, std::min(end, rhs_.time_course().next_break(state.time)));
   } catch (...) {

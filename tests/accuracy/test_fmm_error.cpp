@@ -2,13 +2,13 @@
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
-#include "tests/reference/point_cloud.hpp"
-#include "tests/reference/regularized_stokeslet_reference.hpp"
+#include "tests/accuracy/fmm_cases.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -16,23 +16,6 @@ namespace {
 using reference::Cloud;
 using reference::PointForces;
 using reference::Random;
-
-constexpr double viscosity = 0.7;
-constexpr double radius = 0.005, spacing = 0.00173648, fiber_blob = 0.00225;
-
-Sources on_device(const PointForces& from) {
-  return {to_device("position", from.position), to_device("force", from.force), to_device("blob", from.blob)};
-}
-
-/// Relative error, 2-norm over all targets: what the tolerance bounds.
-double error_of(const std::vector<Vec3>& got, const std::vector<Vec3>& exact) {
-  double difference = 0.0, size = 0.0;
-  for (std::size_t i = 0; i < got.size(); ++i) {
-    difference += dot(got[i] - exact[i], got[i] - exact[i]);
-    size += dot(exact[i], exact[i]);
-  }
-  return std::sqrt(difference / size);
-}
 
 /// @param target  empty: the sources' own array
 struct Result {
@@ -48,38 +31,6 @@ Result compare_with_direct(const PointForces& from, const std::vector<Vec3>& tar
   fmm.add_velocity(sources, targets, got);
   DirectMobility(viscosity, Precision::in_double).add_velocity(sources, targets, exact);
   return {error_of(to_host(got), to_host(exact)), fmm.statistics()};
-}
-
-void add_section(std::vector<Vec3>& nodes, const Vec3 center, const Vec3 one, const Vec3 other) {
-  for (int a = 0; a < 18; ++a) {
-    const double angle = 2.0 * std::numbers::pi * a / 18;
-    nodes.push_back(center + radius * std::cos(angle) * one + radius * std::sin(angle) * other);
-  }
-}
-std::vector<Vec3> make_tube(const int sections) {
-  std::vector<Vec3> nodes;
-  for (int s = 0; s < sections; ++s) add_section(nodes, {s * spacing, 0.0, 0.0}, {0, 1, 0}, {0, 0, 1});
-  return nodes;
-}
-std::vector<Vec3> make_spiral(const int sections) {
-  constexpr double growth = 0.03 / (2.0 * std::numbers::pi);
-  std::vector<Vec3> nodes;
-  double angle = 2.0 * std::numbers::pi;
-  for (int s = 0; s < sections; ++s) {
-    const double r = growth * angle;
-    const Vec3 along{growth * std::cos(angle) - r * std::sin(angle), growth * std::sin(angle) + r * std::cos(angle),
-                     0.0};
-    add_section(nodes, {r * std::cos(angle), r * std::sin(angle), 0.0}, Vec3{-along.y, along.x, 0.0} / norm(along),
-                {0, 0, 1});
-    angle += spacing / norm(along);
-  }
-  return nodes;
-}
-
-PointForces with_forces(const std::vector<Vec3>& nodes, const double blob, const std::uint64_t seed) {
-  Random random(seed);
-  return {nodes, reference::make_random_vectors(static_cast<int>(nodes.size()), 1.3, random),
-          std::vector<double>(nodes.size(), blob)};
 }
 
 /// Error between the nearest well-separated boxes: sources fill one, targets the next but one.

@@ -3,6 +3,7 @@
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/fmm_mobility.hpp>
+#include <skein/solvers/right_hand_side_decorator.hpp>
 
 #include "runs/checkpoint_memory.hpp"
 #include "tests/support/direct_physics.hpp"
@@ -212,24 +213,15 @@ TEST(Restart, BesideBreaksIsExactWithEveryMethod) {
 }
 
 // Leaves a step in the middle, at any of its evaluations.
-class InterruptedDynamics final : public RightHandSide {
+class InterruptedDynamics final : public RightHandSideDecorator {
  public:
   struct Interrupted {};
-  explicit InterruptedDynamics(RightHandSide& dynamics) : dynamics_(dynamics) {}
+  explicit InterruptedDynamics(RightHandSide& dynamics) : RightHandSideDecorator(dynamics) {}
   void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
     if (n_left-- == 0) throw Interrupted();
-    dynamics_.compute_velocity(time, position, velocity);
+    inner_.compute_velocity(time, position, velocity);
   }
-  std::string find_fault(const ConstVectors& position) const override { return dynamics_.find_fault(position); }
-  void project(const Vectors& position) override { dynamics_.project(position); }
-  std::int64_t evaluations() const override { return dynamics_.evaluations(); }
-  const TimeCourse& time_course() const override { return dynamics_.time_course(); }
-  void visit_memory(MemoryVisitor& visitor) override { dynamics_.visit_memory(visitor); }
-  Linearization* linearization() override { return dynamics_.linearization(); }
   int n_left = -1;  ///< evaluations until it happens; none for a negative number
-
- private:
-  RightHandSide& dynamics_;
 };
 
 TEST(Restart, OfAStepThatWasGivenUpIsExact) {

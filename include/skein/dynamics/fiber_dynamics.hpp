@@ -27,6 +27,9 @@ class FiberDynamics final : public RightHandSide {
   /// Rigid fibers' nodes are put onto the rigid body that fits them best.
   void project(const Vectors& position) override;
 
+  void begin_step() override { physics_.mobility->begin_step(); }
+  void end_step() noexcept override { physics_.mobility->end_step(); }
+
   std::int64_t evaluations() const override { return evaluations_; }
   const TimeCourse& time_course() const override { return course_; }
 

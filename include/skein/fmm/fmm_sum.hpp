@@ -5,6 +5,7 @@
 #include <skein/fmm/even_sample.hpp>
 #include <skein/fmm/fmm_plan.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace skein {
 /// What the last evaluation met: for the cost card, the benchmarks and the tests.
 struct FmmStatistics {
   FmmPlan plan;
+  std::int64_t n_trees = 0;  ///< made so far
   int n_boxes = 0;
   int n_levels = 0;
   int n_leaves = 0;                  ///< with targets
@@ -32,6 +34,9 @@ class FmmSum {
   /// Takes the arrays of the next sum; false where a position is not finite.
   virtual bool take(const Sources& sources, const ConstVectors& target) = 0;
   virtual double largest_blob() const = 0;
+  /// From here to the end of the step nodes move little from sum to sum, and a tree may serve several.
+  virtual void begin_step() = 0;
+  virtual void end_step() noexcept = 0;
   /// The sum after a plan; false where a direct sum is cheaper and may be used.
   virtual bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) = 0;
   /// velocity += the sum

@@ -15,9 +15,9 @@ namespace skein {
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
-/// the approximations). The tree is rebuilt in every call, operators are kept. KernelPath says where it runs. A node
-/// whose position is not finite makes all velocities not a number, as in a direct sum. Source: Ying, Biros, Zorin, J.
-/// Comput. Phys. 196, 591 (2004).
+/// the approximations). Operators are kept, and the tree for as long in a time step as the nodes stay close to their
+/// leaves. KernelPath says where it runs. A node whose position is not finite makes all velocities not a number, as in
+/// a direct sum. Source: Ying, Biros, Zorin, J. Comput. Phys. 196, 591 (2004).
 class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
@@ -28,6 +28,8 @@ class FmmMobility final : public Mobility {
   /// @throws Error(scene_error) where a tolerance is out of reach for these blobs; Error(numerical) where a check finds
   /// an error above the tolerance and the options say to stop.
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  void begin_step() override { sum_->begin_step(); }
+  void end_step() noexcept override { sum_->end_step(); }
   double expected_error() const override { return options_.tolerance; }
   double pairs() const override { return pairs_; }
   std::string describe() const override;

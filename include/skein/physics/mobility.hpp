@@ -25,6 +25,11 @@ class Mobility {
   /// @throws Error(internal) if extents differ. Non-finite input is not searched for here: the time step checks.
   virtual void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) = 0;
 
+  /// From here to the end of a time step, nodes move little from call to call: what was made for their places may serve
+  /// several calls. The first call in a step depends on nothing before it, and so does every call outside of steps.
+  virtual void begin_step() {}
+  virtual void end_step() noexcept {}
+
   /// Of velocities, relative (2-norm); 0 where it is that of double precision.
   virtual double expected_error() const { return 0.0; }
 

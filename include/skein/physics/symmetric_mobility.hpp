@@ -27,6 +27,8 @@ class SymmetricMobility final : public Mobility {
   ~SymmetricMobility() override;
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
+  void begin_step() override { at_nodes_->begin_step(); }
+  void end_step() noexcept override { at_nodes_->end_step(); }
   double pairs() const override { return pairs_ + elsewhere_->pairs(); }
   std::string describe() const override;
   void visit_memory(MemoryVisitor& visitor) override { at_nodes_->visit_memory(visitor); }

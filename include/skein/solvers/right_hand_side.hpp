@@ -27,6 +27,12 @@ class RightHandSide {
   /// after. Does nothing where all positions are allowed.
   virtual void project(const Vectors& /*position*/) {}
 
+  /// Around every step that an integrator takes or tries to take: between these two, positions differ little from call
+  /// to call, and what was made for them may serve on. The first velocity in a step depends on its arguments and on
+  /// what visit_memory shows, and on nothing else.
+  virtual void begin_step() {}
+  virtual void end_step() noexcept {}
+
   virtual std::int64_t evaluations() const = 0;
 
   /// All that later velocities depend on besides the arguments.

@@ -1,0 +1,54 @@
+#include "fmm/tree_fit.hpp"
+
+namespace skein {
+namespace {
+
+/// Counts the nodes of a leaf that have left it by more than the margin.
+template <class Space>
+struct CountStrays {
+  Kokkos::View<const Box*, Space> boxes;
+  OctreeCube cube;
+  TreeNodes<Space> sources, targets;
+
+  SKEIN_INLINE_FUNCTION int strays(const Box& box, const TreeNodes<Space>& nodes, const IndexRange run) const {
+    const Vec3 center = cube.center(box);
+    const double origin[3] = {center.x, center.y, center.z};
+    const double reach = (1.0 + leaf_margin) * cube.half_width(box.level);
+    int n = 0;
+    for (int i = run.first; i < run.first + run.count; ++i) {
+      const int node = nodes.order(i);
+      bool is_near = true;
+      for (int c = 0; c < 3; ++c) {
+        const double away = nodes.position(node, c) - origin[c];
+        is_near = is_near && away <= reach && away >= -reach;  // false for what is not a number
+      }
+      n += is_near ? 0 : 1;
+    }
+    return n;
+  }
+
+  SKEIN_INLINE_FUNCTION void operator()(const int b, int& n_strays) const {
+    const Box& box = boxes(b);
+    if (!box.is_leaf()) return;
+    n_strays += strays(box, sources, box.sources);
+    if (targets.order.extent(0) > 0) n_strays += strays(box, targets, box.targets);
+  }
+};
+
+}  // namespace
+
+template <class Space>
+bool nodes_fit(const Space& space, const Kokkos::View<const Box*, Space>& boxes, const OctreeCube& cube,
+               const TreeNodes<Space>& sources, const TreeNodes<Space>& targets) {
+  int n_strays = 0;
+  Kokkos::parallel_reduce("skein::nodes_fit", Kokkos::RangePolicy<Space>(space, 0, boxes.extent_int(0)),
+                          CountStrays<Space>{boxes, cube, sources, targets}, n_strays);
+  return n_strays == 0;
+}
+
+#define SKEIN_INSTANTIATE(S)                                                                                       \
+  template bool nodes_fit<S>(const S&, const Kokkos::View<const Box*, S>&, const OctreeCube&, const TreeNodes<S>&, \
+                             const TreeNodes<S>&);
+SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
+
+}  // namespace skein
