@@ -34,6 +34,7 @@ struct BenchOptions {
   std::vector<std::string> scenes;
   std::vector<double> tolerances{0.1, 0.03, 0.01};
   double stiffness = 1.0;
+  PlanRequest request;  ///< of the plans, but for its tolerance
   int threads = 0;
   bool no_plots = false;
   bool as_json = false;
@@ -86,7 +87,7 @@ int bench_plans(const BenchOptions& options) {
                            "tolerance", "rung", "predicted", "measured", "seconds", "cheapest"));
   for (const std::string& file : options.scenes) {
     const PlacedScene placed = read_placed_scene(file, {});
-    for (const PlanCheck& check : check_plans(placed.config, {}, options.tolerances, [](const std::string&) {}))
+    for (const PlanCheck& check : check_plans(placed.config, options.request, options.tolerances, print_note))
       print_result(fmt::format("{:<26} {:>9} {:>6} {:>10} {:>10} {:>9.3g} {:>9.3g}\n",
                                std::filesystem::path(file).stem().string(), in_percent(check.tolerance),
                                check.chosen ? name_of_rung(*check.chosen) : "none", in_percent(check.predicted_error),
@@ -160,6 +161,8 @@ Verb make_bench_verb() {
                .within(1e-2, 1e3),
            make_argument("--scene", &options->scenes, "FILE", "To be planned; once for each"),
            make_argument("--tolerances", &options->tolerances, "E,...", "Of the plans").within(1e-4, 0.5),
+           make_argument("--within", Duration{&options->request.max_seconds}, "T",
+                         "Wall time for the pilot runs of a plan: seconds, 30m, 2h or 1:30:00"),
            make_threads_option(&options->threads), make_flag("--no-plots", &options->no_plots, "Draw nothing"),
            make_argument("--seconds", &options->seconds, "S",
                          "Of the machine: for the steps of each length, and at most for one direct sum")

@@ -61,10 +61,14 @@ double compare_lists(const std::vector<double>& found, const std::vector<double>
   return largest;
 }
 
-/// True where folded ends travel at one speed; in a vortex they may come and go.
+/// True where folded ends travel at one speed, and by more than the fold is wide; in a vortex they may come and go, in
+/// a U-turn they stay where they are.
 bool snakes(const FiberSummary& summary) {
+  if (!summary.snaking) return false;
+  const Snaking& snaking = *summary.snaking;
   constexpr double least_determination = 0.95;
-  return summary.snaking && summary.snaking->determination >= least_determination;
+  const double travelled = std::abs(snaking.speed) * (snaking.end - snaking.begin);
+  return snaking.determination >= least_determination && travelled >= snaking.hook_radius;
 }
 
 /// A fiber's numbers of one kind; none where it has no answer.

@@ -8,6 +8,8 @@
 #include "studies/rung.hpp"
 #include "studies/rung_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -46,6 +48,7 @@ std::vector<PlanCheck> check_plans(const SceneConfig& asked, const PlanRequest& 
     if (rung.is_barred) continue;
     say("pilot: " + describe_rung(rung.nodes_per_section));
     rungs.push_back(measure(rung.scene));
+    say(fmt::format("its error is {:.2g} %, in {:.3g} s", 100.0 * rungs.back().error, rungs.back().seconds));
     if (rungs.back().error <= tightest) break;
   }
   std::vector<PlanCheck> checks;

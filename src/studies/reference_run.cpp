@@ -8,8 +8,11 @@ namespace skein {
 
 Pilot run_reference(SceneConfig scene, const int n_intervals) {
   const SymmetryConfig asked = scene.symmetry;
-  scene.symmetry = {.mirror = SymmetryAxis::z, .half_turn = SymmetryAxis::z};
-  if (!find_symmetry_problems(scene).empty()) scene.symmetry = asked;
+  using enum SymmetryAxis;
+  for (const SymmetryConfig& tried : {SymmetryConfig{z, z}, SymmetryConfig{z, none}, SymmetryConfig{none, z}, asked}) {
+    scene.symmetry = tried;
+    if (find_symmetry_problems(scene).empty()) break;
+  }
   return run_pilot(scene, n_intervals, std::numeric_limits<double>::infinity());
 }
 

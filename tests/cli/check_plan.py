@@ -5,8 +5,9 @@ Called as check_plan.py PROGRAM SOURCES.
 
 import json
 import re
+import subprocess
 
-from cli_case import DONE, USAGE, InFreshFolder, main, skein
+from cli_case import DONE, SOURCES, USAGE, InFreshFolder, main, skein
 
 NO_RUNG = 76
 # A half turn of the paper's shortest fiber, with nine nodes on a section.
@@ -59,6 +60,11 @@ class Planning(InFreshFolder):
         self.expect(DONE, "run", "planned.toml", "-o", "planned", "-q")
         self.expect(DONE, "verify", "planned")
         self.assertAlmostEqual(self.half_turn("planned") / self.half_turn("whole"), 1.0, delta=0.03)
+        # Shapes are compared at equal shares of the centrelines, which have other numbers of sections.
+        for at_most, code in (("0.03", 0), ("0.0005", 1)):
+            compared = subprocess.run([(SOURCES / "tools/compare_runs.py").resolve(), "whole", "planned", "--at-most", at_most],
+                                      cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(compared.returncode, code, compared.stdout + compared.stderr)
 
     def test_run_plans_and_runs(self):
         self.expect(DONE, "run", "scene.toml", "-o", "quick", "-q", "--plan", "0.1", "--set", "time.end=2.0")
@@ -117,6 +123,14 @@ class Planning(InFreshFolder):
             self.assertIn("half_turn", rung["verdict"])
             self.assertIn("no partner", rung["verdict"])
         self.assertIn('half_turn = "z"', (self.folder / "planned.toml").read_text())
+
+    def test_a_fold_that_stays_where_it_is_does_not_snake(self):
+        """A U-turn is folded for a while, but its fold travels by a third of its radius only."""
+        code, plan = self.plan("--tolerance", "0.03", "--set", "fiber.sections=60", "--set", "fiber.start_amplitude=0.11",
+                               "--set", "time.end=6.0")
+        self.assertEqual(code, DONE, plan)
+        chosen = next(c for c in plan["candidates"] if c["nodes_per_section"] == plan["chosen"])
+        self.assertEqual(sorted(chosen["differences"]), ["shape"])
 
     def test_surfaces_that_are_pressed_into_each_other_are_no_answer_to_contact(self):
         """A fiber this soft folds; the chain in its place overlaps itself, tubes of it do not, and rigid it would not fold."""
