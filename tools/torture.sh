@@ -11,11 +11,11 @@ Builds skein and tries to break its runs: kills, restarts, signals, write errors
 that are none, readers, fuzzers, and all tests under sanitizers. Prints one table; the exit code is 0 if every promise was
 kept. Filling a disk needs root.
 
-  --campaign       the larger counts, for a release: hours
+  --campaign       the larger counts, for a release: about fifty minutes of one core, and the sanitized tests besides
   --share NUMBER   of the counts, such as 0.2, each rounded up
   --short          the small counts, those of CTest: a minute, without fuzzers and sanitizers
   --program PATH   torture this skein instead of building one
-  --folder PATH    run folders go there (default: build/torture)
+  --folder PATH    run folders go there (default: build/torture); in memory, as in /dev/shm, no try waits for a disk
   --no-fuzzing, --no-sanitizers
   --help           this text
 TEXT
@@ -32,7 +32,7 @@ while (($#)); do
   case $1 in
     --campaign)
       size=(--campaign)
-      fuzz_seconds=1800
+      fuzz_seconds=300
       ;;
     --short)
       size=(--short)
@@ -74,7 +74,7 @@ python=/usr/bin/python3
 "$python" -c 'import h5py' 2>/dev/null || python=python3
 
 kept=0
-print_row() { printf '%-26s%7s  %-8s%8.1f  %s\n' "$@"; }
+print_row() { printf '%-26s%7s  %-8s%8.1f%13s%s\n' "${@:1:4}" '' "$5"; }
 
 # A row: promise, count, a command, and the remark, which is the last line that the command prints on its stdout.
 try() {

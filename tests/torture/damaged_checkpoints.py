@@ -42,7 +42,7 @@ def torture(program, counts, seed=5):
     draw = random.Random(seed)
     reference = run_unbroken(program)
     stopped = program.fresh("stopped")
-    program.run(stopped, SKEIN_TEST_KILL="step:100")
+    program.run(stopped, SKEIN_TEST_KILL="step:50")
     other = program.fresh("other")
     require(program.run(other, ["flow.rate=2.25"]).returncode == DONE, "the other run fails")
     foreign = checkpoints(other)[-1].read_bytes()

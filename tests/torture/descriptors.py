@@ -9,7 +9,9 @@ from run_files import differences, run_unbroken
 
 
 def call(program, command, closed):
-    result = subprocess.run([str(word) for word in command], env=program.environment(), timeout=120,
+    environment = program.environment()
+    del environment["OMP_WAIT_POLICY"]  # so that the program starts itself anew, with what is closed
+    result = subprocess.run([str(word) for word in command], env=environment, timeout=120,
                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                             preexec_fn=lambda: [os.close(number) for number in closed])
     return result.returncode

@@ -1,6 +1,5 @@
 """SIGKILL at any moment: nothing unreadable, at most one checkpoint interval lost, the end equal in every bit."""
 
-import math
 import random
 import signal
 import time
@@ -8,7 +7,7 @@ import time
 from program import DONE, require
 from run_files import checkpoints, differences, final_state, read_checkpoint, step_times
 
-INTERVAL = 0.2  # of checkpoints in program.SCENE
+END, INTERVAL = 1.0, 0.2  # of the run and between checkpoints, in program.SCENE
 POINTS = [
     f"{kind}.{point}"
     for kind in ("checkpoint", "segment", "trajectory.h5", "trajectory.xdmf")
@@ -70,7 +69,7 @@ def torture(program, counts, seed=1):
     seconds = time.monotonic() - started
     require(result.returncode == DONE, result.stderr)
     reference, times = final_state(folder), step_times(folder)
-    n_checkpoints = math.floor(2.0 / INTERVAL)
+    n_checkpoints = round(END / INTERVAL)
     n_inside = round(0.3 * counts["kills"])
     for i in range(n_inside):
         kill_inside_write(program, POINTS[i % len(POINTS)], draw.randint(1, n_checkpoints - 1), reference)

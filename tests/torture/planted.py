@@ -54,7 +54,7 @@ def torture(program, counts, seed=8):
     draw = random.Random(seed)
     reference = run_unbroken(program)
     stopped = program.fresh("stopped")
-    program.run(stopped, SKEIN_TEST_KILL="step:60")
+    program.run(stopped, SKEIN_TEST_KILL="step:30")
     (stopped / "lock").unlink()
     outside = program.fresh("outside")
     outside.mkdir()

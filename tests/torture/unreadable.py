@@ -91,7 +91,7 @@ def torture(program, counts, seed=9):
     draw = random.Random(seed)
     reference = run_unbroken(program)
     stopped = program.fresh("stopped")
-    program.run(stopped, SKEIN_TEST_KILL="step:100")
+    program.run(stopped, SKEIN_TEST_KILL="step:50")
     harms = HARMS if shutil.which("strace") else [harm for harm in HARMS if harm != "EIO"]
     cases = [(harm, victim) for victim in victims(stopped) for harm in harms]
     draw.shuffle(cases)

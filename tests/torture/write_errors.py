@@ -103,7 +103,7 @@ def torture(program, counts, seed=4):
     n_disks = counts["full_disks"]
     if can_mount(program):
         for _ in range(n_disks):
-            fill_disk(program, 4 * draw.randint(8, 160), reference)
+            fill_disk(program, 4 * draw.randint(8, 70), reference)
         remarks.append(f"{n_disks} full disks")
     else:
         for _ in range(n_disks):
