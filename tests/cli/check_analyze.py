@@ -6,26 +6,15 @@ Its numbers are compared with NumPy's, taken from the saved centreline: another 
 import csv
 import json
 import pathlib
-import shutil
-import subprocess
 import sys
 
 import h5py
 import numpy as np
 
+from checks import check, run_command, skein
+
 OVERRIDES = ["fiber.nodes_per_section=6", "fiber.sections=39", "fiber.spring_stiffness=0.0409", "time.end=8.5",
              "output.frame_interval=0.02"]
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_analyze: {message}")
-
-
-def skein(*arguments, code=0):
-    result = subprocess.run([*map(str, arguments)], capture_output=True, text=True)
-    check(result.returncode == code, f"{arguments}: exit code {result.returncode}: {result.stderr}")
-    return result.stdout
 
 
 def read_table(path):
@@ -42,10 +31,8 @@ def turning_by_tangents(line):
 
 def main():
     program, scene, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
-    shutil.rmtree(folder, ignore_errors=True)
-    sets = [word for override in OVERRIDES for word in ("--set", override)]
-    skein(program, "run", scene, "-o", folder, "-q", *sets)
-    summary = json.loads(skein(program, "analyze", folder, "--json"))
+    skein(*run_command(program, scene, folder, OVERRIDES), "-q")
+    summary = json.loads(skein(program, "analyze", folder, "--json").stdout)
     fiber = summary["fibers"][0]
     check(fiber["regime"] == "S", f"an S-turn is called {fiber['regime']}")
     check([c["regime"] for c in fiber["changes"]] == ["tumble", "S", "tumble"], f"changes {fiber['changes']}")
@@ -101,11 +88,11 @@ def main():
     check(regimes[0][1] == fiber["changes"][1]["time"], "the event's time is not that of the analysis")
 
     elsewhere = folder / "elsewhere"
-    shapes = skein(program, "analyze", folder, "--no-forces", "-o", elsewhere)
+    shapes = skein(program, "analyze", folder, "--no-forces", "-o", elsewhere).stdout
     check("regime S" in shapes and "energy" not in shapes, shapes)
     check("no node inside of another surface; no centreline passed through another" in shapes, shapes)
     check("energy" not in read_table(elsewhere / "diagnostics.csv"), "forces were not asked for")
-    skein(program, "analyze", folder / "nothing", code=66)
+    skein(program, "analyze", folder / "nothing", codes=(66,))
     print(f"check_analyze: {len(times)} frames, power balance {fiber['energy_defect']:.1e}")
 
 

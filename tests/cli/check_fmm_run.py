@@ -16,15 +16,12 @@ os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py
 import numpy as np
 
+from checks import check
+
 NUMERICAL = 76
 TOLERANCE = 1e-4
 SHEARED = [f"hydrodynamics.tolerance={TOLERANCE}", "hydrodynamics.check_every=10", "time.end=0.02"]
 AT_REST = ["flow.kind=none", *SHEARED, "time.end=0.004"]
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_fmm_run: {message}")
 
 
 def run(program, folder, overrides, threads=1):

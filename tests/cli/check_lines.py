@@ -4,17 +4,13 @@ The tubes' own figures stand below."""
 
 import csv
 import json
-import os
 import pathlib
-import shutil
-import signal
-import subprocess
 import sys
-import time
 
 import h5py
 import numpy as np
 
+from checks import certificate, check, kill_and_resume, run_command, skein
 
 
 class Line:
@@ -35,48 +31,13 @@ LINES = [
 RADIUS = 0.005
 
 
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_lines: {message}")
-
-
-def skein(*arguments):
-    result = subprocess.run([*map(str, arguments)], capture_output=True, text=True)
-    check(result.returncode == 0, f"{arguments}: exit code {result.returncode}: {result.stderr}")
-    return result.stdout
-
-
-def run_command(program, line, scene, folder):
-    shutil.rmtree(folder, ignore_errors=True)
-    sets = [word for override in line.overrides for word in ("--set", override)]
-    return [str(word) for word in (program, "run", scene, "-o", folder, "-q", "--threads", 1, *sets)]
-
-
-def certificate(program, folder):
-    """A hash of all that a run has computed."""
-    line = next(line for line in skein(program, "verify", folder).splitlines() if line.startswith("certificate"))
-    return line.split()[-1]
-
-
-def kill_and_resume(program, line, scene, folder):
-    """A run that is killed as soon as it has made checkpoints, and resumed with another number of threads."""
-    process = subprocess.Popen(run_command(program, line, scene, folder))
-    while process.poll() is None and len(list(folder.glob("checkpoints/*.checkpoint"))) < 2:
-        time.sleep(0.001)
-    if process.poll() is None:
-        process.send_signal(signal.SIGKILL)
-    process.wait()
-    if process.returncode != 0:
-        skein(program, "resume", folder, "-q", "--threads", 2)
-
-
 def check_line(program, line, scene, folder):
     whole, killed = folder / "whole", folder / "killed"
-    subprocess.run(run_command(program, line, scene, whole), check=True)
-    kill_and_resume(program, line, scene, killed)
+    skein(*run_command(program, scene, whole, line.overrides), "-q")
+    kill_and_resume(run_command(program, scene, killed, line.overrides), killed)
     check(certificate(program, whole) == certificate(program, killed), "a killed run goes on otherwise")
 
-    fiber = json.loads(skein(program, "analyze", whole, "--json"))["fibers"][0]
+    fiber = json.loads(skein(program, "analyze", whole, "--json").stdout)["fibers"][0]
     for name, known in line.known.items():
         found = fiber[name][0] if isinstance(fiber[name], list) else fiber[name]
         check(abs(found / known - 1.0) < line.tolerance, f"{name} of the {line.model}: {found}, the tube's: {known}")
@@ -92,7 +53,7 @@ def check_line(program, line, scene, folder):
         check_rigid(position, whole)
 
     skein(program, "field", whole, "--time", 9, "-o", folder / "field.vti")
-    said = skein(program, "validate", whole / "scene.toml")
+    said = skein(program, "validate", whole / "scene.toml").stdout
     check(f"{line.model}" in said and f"of {line.n_nodes} nodes" in said, f"the run's scene is another: {said}")
     check(("above 306.4 bends grow" in said) == (line.model == "rigid"), f"what bends is not told: {said}")
     skein(program, "info", whole)
@@ -120,9 +81,9 @@ def check_threads(program, configs, folder):
     certificates = []
     for threads in (1, 2):
         run = folder / f"threads_{threads}"
-        shutil.rmtree(run, ignore_errors=True)
-        skein(program, "run", configs / "random_suspension.toml", "-o", run, "-q", "--threads", threads,
-              "--set", 'fiber.model="rigid"', "--set", "placement.count=12", "--set", "time.end=0.2")
+        overrides = ['fiber.model="rigid"', "placement.count=12", "time.end=0.2"]
+        scene = configs / "random_suspension.toml"
+        skein(*run_command(program, scene, run, overrides, threads), "-q")
         certificates.append(certificate(program, run))
     check(certificates[0] == certificates[1], "another number of threads computes otherwise")
 

@@ -16,16 +16,13 @@ import h5py
 import matplotlib.image
 import numpy as np
 
+from checks import check
+
 sys.dont_write_bytecode = True  # of the script in the sources
 
 N_FRAMES, N_SECTIONS, SPACING, RADIUS = 25, 30, 0.004, 0.007
 PICTURES = ("shapes", "angle", "curvature", "energy", "extrema", "power", "defects")
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)  # of the first and the second fiber
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_plots: {message}")
 
 
 def make_lines(times, out_of_plane):

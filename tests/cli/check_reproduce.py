@@ -7,21 +7,11 @@ import json
 import os
 import pathlib
 import shutil
-import subprocess
 import sys
 
+from checks import check, skein
+
 DONE, USAGE, CANNOT_CREATE, STOPPED, NUMERICAL = 0, 64, 73, 75, 76
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_reproduce: {message}")
-
-
-def skein(*arguments, codes=(DONE,)):
-    result = subprocess.run([*map(str, arguments)], capture_output=True, text=True)
-    check(result.returncode in codes, f"{arguments}: exit code {result.returncode}: {result.stdout}{result.stderr}")
-    return result
 
 
 def check_table(program, folder):

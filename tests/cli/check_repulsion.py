@@ -5,35 +5,22 @@ In a linear strain the work of the flow is the particle stress times the strain 
 
 import json
 import pathlib
-import shutil
-import subprocess
 import sys
 
 import h5py
 import numpy as np
+
+from checks import check, run_command, skein
 
 OVERRIDES = [f"fiber[{i}].{key}" for i in (0, 1) for key in ("sections=20", "nodes_per_section=9")] + ["time.end=1.2"]
 OVERRIDES += ["output.frame_interval=0.01"]
 RATE, RADIUS = 2.5, 0.005
 
 
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_repulsion: {message}")
-
-
-def skein(*arguments):
-    result = subprocess.run([*map(str, arguments)], capture_output=True, text=True)
-    check(result.returncode == 0, f"{arguments}: exit code {result.returncode}: {result.stderr}")
-    return result.stdout
-
-
 def run_and_analyze(program, scene, folder, *overrides):
     """The summary, and a dictionary of [n_fibers, n_frames] columns."""
-    shutil.rmtree(folder, ignore_errors=True)
-    sets = [word for override in [*OVERRIDES, *overrides] for word in ("--set", override)]
-    skein(program, "run", scene, "-o", folder, "-q", *sets)
-    summary = json.loads(skein(program, "analyze", folder, "--json"))
+    skein(*run_command(program, scene, folder, [*OVERRIDES, *overrides]), "-q")
+    summary = json.loads(skein(program, "analyze", folder, "--json").stdout)
     with h5py.File(folder / "analysis" / "diagnostics.h5") as file:
         names = ["energy", "background_power", "dissipation", "stresslet_xx", "stresslet_yy"]
         columns = {name: np.array([file[f"fiber_{i}/{name}"][()] for i in (0, 1)]) for name in names}
@@ -58,7 +45,7 @@ def main():
     with h5py.File(folder / "repelled" / "trajectory.h5") as run:
         last = run["/observables/energy/value"][-1]
     check(np.allclose(columns["energy"][:, -1], last, rtol=1e-9), "energies differ from the run's")
-    said = skein(program, "validate", scene)
+    said = skein(program, "validate", scene).stdout
     check("repulsion: of strength 2.5 where gaps are below 0.005" in said, said)
     print(f"check_repulsion: gaps {gap:.2g} and {gap_without:.2g}, stress and power agree to {error:.1e}")
 

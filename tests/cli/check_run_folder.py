@@ -13,6 +13,8 @@ import xml.etree.ElementTree as ElementTree
 import h5py
 import numpy as np
 
+from checks import check
+
 QUAD = 9  # VTK's number for a quadrilateral
 NO_DIMENSION = {"/observables/error/value", "/observables/evaluations/value", "/observables/symmetry_defect/value",
                 "/observables/nodes_inside/value", "/observables/crossings/value", "/observables/velocity_error/value", "/observables/fmm_order/value", "/observables/fmm_misses/value",
@@ -20,11 +22,6 @@ NO_DIMENSION = {"/observables/error/value", "/observables/evaluations/value", "/
 PER_FIBER = ("energy", "centreline_length", "curvature_max", "symmetry_defect", "out_of_plane", "end_to_end")
 PER_STEP = ("smallest_gap", "nodes_inside", "depth", "crossings", "dt", "error", "estimated_error", "spectral_radius",
             "evaluations", "velocity_error", "fmm_order", "fmm_misses")
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_run_folder: {message}")
 
 
 def check_h5md(index):

@@ -7,13 +7,12 @@ section until it has folded.
 import json
 import pathlib
 import shutil
-import signal
-import subprocess
 import sys
-import time
 
 import h5py
 import numpy as np
+
+from checks import certificate, check, kill_and_resume, run_command, skein
 
 LENGTH, N_SECTIONS, N_AROUND = 0.22, 44, 6
 TOLERANCE, END = 1e-4, 8.0
@@ -21,41 +20,6 @@ OVERRIDES = [f"fiber.sections={N_SECTIONS}", f"fiber.nodes_per_section={N_AROUND
              "fiber.spring_stiffness=0.0409", f"time.end={END}", "output.frame_interval=0.5",
              "checkpoint.simulated_interval=0.25"]
 SYMMETRY = ['symmetry.mirror="z"', 'symmetry.half_turn="z"']
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_symmetry: {message}")
-
-
-def skein(*arguments, code=0):
-    result = subprocess.run([*map(str, arguments)], capture_output=True, text=True)
-    check(result.returncode == code, f"{arguments}: exit code {result.returncode}: {result.stdout}{result.stderr}")
-    return result.stdout + result.stderr
-
-
-def run_command(program, scene, folder, overrides):
-    shutil.rmtree(folder, ignore_errors=True)
-    sets = [word for override in overrides for word in ("--set", override)]
-    return [str(word) for word in (program, "run", scene, "-o", folder, "--threads", 1, *sets)]
-
-
-def certificate(program, folder):
-    """A hash of all that a run has computed."""
-    line = next(line for line in skein(program, "verify", folder).splitlines() if line.startswith("certificate"))
-    return line.split()[-1]
-
-
-def kill_and_resume(program, command, folder):
-    """A run that is killed as soon as it has made checkpoints, and resumed with another number of threads."""
-    process = subprocess.Popen([*command, "-q"])
-    while process.poll() is None and len(list(folder.glob("checkpoints/*.checkpoint"))) < 2:
-        time.sleep(0.001)
-    if process.poll() is None:
-        process.send_signal(signal.SIGKILL)
-    process.wait()
-    check(process.returncode != 0, "the run was over before it could be killed")
-    skein(program, "resume", folder, "-q", "--threads", 2)
 
 
 def read_positions(folder):
@@ -75,9 +39,9 @@ def check_symmetric(position):
 
 
 def check_verbs(program, run, folder):
-    report = skein(program, "analyze", run)
+    report = skein(program, "analyze", run).stdout
     check("by assumption" in report, f"analyze sells the symmetry for a result: {report}")
-    fiber = json.loads(skein(program, "analyze", run, "--json"))["fibers"][0]
+    fiber = json.loads(skein(program, "analyze", run, "--json").stdout)["fibers"][0]
     check(fiber["out_of_plane"] < 1e-12 and fiber["symmetry_defect"] < 1e-12, f"defects {fiber}")
     check(fiber["energy_defect"] < 0.05, f"the power balance is open by {fiber['energy_defect']}")
     skein(program, "field", run, "-o", folder / "field.vti", "--points", 8)
@@ -87,7 +51,7 @@ def check_verbs(program, run, folder):
 
 def check_going_on(program, run, folder):
     """The scene's symmetry is not a thing that a run may change; a new run may begin with the state, also without."""
-    refused = skein(program, "resume", run, "--set", 'symmetry.mirror="none"', code=64)
+    refused = skein(program, "resume", run, "--set", 'symmetry.mirror="none"', codes=(64,)).stderr
     check("mirror" in refused, f"resume: {refused}")
     skein(program, "resume", run, "-q", "--set", f"time.end={END + 0.1}")
     for name, overrides in (("free", ['symmetry.mirror="none"', 'symmetry.half_turn="none"']), ("kept", [])):
@@ -119,7 +83,7 @@ def check_unsymmetric_state(program, scene, folder):
     skein(*run_command(program, scene, bent, ["time.end=0.01", "fiber.start_noise=1e-4", "fiber.sections=20"]), "-q")
     file = folder / "symmetric.toml"
     file.write_text('[fiber]\nsections = 20\n[symmetry]\nhalf_turn = "none"\nmirror = "z"\n')
-    refused = skein(program, "run", "--from", bent, file, "-o", folder / "x", code=78)
+    refused = skein(program, "run", "--from", bent, file, "-o", folder / "x", codes=(78,)).stderr
     check(f"{file}:5:10" in refused and "not symmetric" in refused, f"a state without symmetry: {refused}")
     check(not (folder / "x").exists(), "the refused run has a folder")
 
@@ -128,10 +92,10 @@ def main():
     program, scene, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
     folder.mkdir(exist_ok=True)
     whole, killed, full = folder / "whole", folder / "killed", folder / "full"
-    said = skein(*run_command(program, scene, whole, OVERRIDES + SYMMETRY))
+    said = skein(*run_command(program, scene, whole, OVERRIDES + SYMMETRY)).stderr
     check("no result" in said, f"the run does not say what it takes for granted: {said}")
     check("times fewer pairs" in said, f"the run does not say how it sums: {said}")
-    kill_and_resume(program, run_command(program, scene, killed, OVERRIDES + SYMMETRY), killed)
+    kill_and_resume(run_command(program, scene, killed, OVERRIDES + SYMMETRY), killed)
     check(certificate(program, whole) == certificate(program, killed), "a killed run goes on otherwise")
     skein(*run_command(program, scene, full, OVERRIDES), "-q")
 

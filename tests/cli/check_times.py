@@ -11,6 +11,8 @@ import sys
 import h5py
 import numpy as np
 
+from checks import check
+
 PULSE = """
 [flow]
 kind = "shear"
@@ -46,11 +48,6 @@ direction = [1.0, 0.3, 0.0]
 [time]
 end = {end * unit!r}
 """
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit(f"check_times: {message}")
 
 
 class Program:
