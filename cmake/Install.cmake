@@ -4,7 +4,17 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS skein RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py" PATTERN "matplotlibrc")
+install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py" PATTERN "matplotlibrc"
+        PATTERN "*.js" PATTERN "*.css" PATTERN "*.html"
+        PATTERN skein_package.py EXCLUDE)
+
+# The scripts read runs by the Python package (src/python/CMakeLists.txt installs it), whose place an installed copy names.
+set(plots ${CMAKE_INSTALL_DATADIR}/skein/plots)
+file(RELATIVE_PATH package /prefix/${plots} /prefix/${SKEIN_PYTHON_FOLDER}/skein)
+file(READ tools/plots/skein_package.py text)
+string(REGEX REPLACE "\nPACKAGE = [^\n]*" "\nPACKAGE = \"${package}\"  # from here" text "${text}")
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/skein_package.py CONTENT "${text}" @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/generated/skein_package.py DESTINATION ${plots})
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
 
 # The program writes its own completion. Where it does not start, as one for another machine, there is none.

@@ -21,3 +21,4 @@ skein_layer(analysis HOST PUBLIC core fibers                                    
 skein_layer(runs     PROGRAM PUBLIC core arrays scene fibers physics solvers dynamics io analysis)
 skein_layer(studies  HOST PROGRAM PUBLIC core arrays scene fibers physics io analysis runs)
 skein_layer(cli      HOST PROGRAM PUBLIC core arrays scene physics io runs studies EXTERNAL CLI)
+skein_layer(python   PROGRAM PUBLIC core arrays scene physics io runs studies              EXTERNAL pybind11)

@@ -112,7 +112,7 @@ foreach(layer IN ITEMS core scene fibers arrays)
   add_subdirectory(src/${layer})
 endforeach()
 add_subdirectory(kernels)
-foreach(layer IN ITEMS fmm physics solvers dynamics io analysis runs studies cli)
+foreach(layer IN ITEMS fmm physics solvers dynamics io analysis runs studies cli python)
   add_subdirectory(src/${layer})
 endforeach()
 

@@ -1,8 +1,8 @@
 // The fast multipole method against this project's direct sum in the same run: error against order, speed against
 // error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
-// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [step] [crossover] [uniform] [setup] [chart] [device]
-// [tiny] (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts only when
-// asked.
+// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [step] [crossover] [uniform [only=N]] [setup] [chart]
+// [device] [tiny] (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts
+// only when asked.
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
@@ -255,11 +255,12 @@ void bench_crossover() {
     }
 }
 
-void bench_uniform(const bool tiny) {
+/// @param only  this number of points; 0: all
+void bench_uniform(const bool tiny, const int only) {
   std::printf("\n# Uniform cube\n%s\n", outcome_header);
   for (const double tolerance : {1e-4, 1e-6})
     for (const int n : {10000, 31623, 100000, 316228, 1000000}) {
-      if (tiny && n > 10000) continue;
+      if ((tiny && n > 10000) || (only > 0 && n != only)) continue;
       Case problem(make_uniform(n), 0.1 / std::cbrt(n));
       FmmOptions options;
       options.tolerance = tolerance;
@@ -392,7 +393,9 @@ int main(int argc, char** argv) {
   if (asked("speed")) bench_speed(tiny);
   if (asked("step")) bench_step(tiny);
   if (asked("crossover") && !tiny) bench_crossover();
-  if (asked("uniform")) bench_uniform(tiny);
+  int only = 0;
+  for (const std::string& part : parts) std::sscanf(part.c_str(), "only=%d", &only);
+  if (asked("uniform")) bench_uniform(tiny, only);
   if (asked("setup")) bench_setup(tiny);
   if (tiny || std::find(parts.begin(), parts.end(), "device") != parts.end()) bench_device(tiny);
   if (asked("chart")) bench_chart(tiny);

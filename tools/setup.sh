@@ -17,8 +17,12 @@ plot_packages=(python3 python3-h5py python3-matplotlib python3-numpy)
 # What only running the tests needs; ParaView brings VTK with its XDMF readers, which python3-vtk9 lacks. Other versions of
 # clang-format format otherwise.
 test_packages=(python3-paraview strace clang-format-14 clang-tidy-14)
+# The compiled part of the Python package, and what its tests compute with.
+python_packages=(pybind11-dev python3-dev python3-scipy)
 fuzzing_packages=(clang-14 libclang-rt-14-dev)
 movie_packages=(ffmpeg)
+viewer_packages=(libjs-three)
+browser_packages=(chromium)
 
 usage() {
   cat <<'TEXT'
@@ -31,9 +35,13 @@ built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler, SKE
 
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
-  --with-tests     also install what only running the tests needs (ParaView, strace, clang-format and clang-tidy 14)
+  --with-tests     also install what only running the tests needs (ParaView, strace, clang-format and clang-tidy 14), and
+                   what --with-python and --with-viewer do
+  --with-python    also install pybind11, Python's headers and SciPy: for `import skein`, which runs and computes
   --with-fuzzing   also install clang 14 with libFuzzer, which only tools/torture.sh needs
   --with-movies    also install ffmpeg, which only `skein movie` needs
+  --with-viewer    also install three.js, which `skein view` and `skein report` put into their pages
+  --with-browser   also install Chromium (120 MB), in which the tests then open such a page
   --print-kokkos   print nothing but Kokkos' prefix on stdout; messages go to stderr
   --help           this text
 
@@ -294,9 +302,12 @@ while (($#)); do
       ;;
     --backend=*) backend=${1#*=} ;;
     --serial) backend=serial ;;
-    --with-tests) packages+=("${test_packages[@]}") ;;
+    --with-tests) packages+=("${test_packages[@]}" "${python_packages[@]}" "${viewer_packages[@]}") ;;
+    --with-python) packages+=("${python_packages[@]}") ;;
     --with-fuzzing) packages+=("${fuzzing_packages[@]}") ;;
     --with-movies) packages+=("${movie_packages[@]}") ;;
+    --with-viewer) packages+=("${viewer_packages[@]}") ;;
+    --with-browser) packages+=("${browser_packages[@]}") ;;
     --print-kokkos) only_prefix=true ;;
     -h | --help) usage && exit ;;
     *) fail "unknown option '$1'; --help lists the options." ;;

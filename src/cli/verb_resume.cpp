@@ -1,17 +1,13 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/duration.hpp>
-#include <skein/core/version.hpp>
-#include <skein/io/checkpoint_folder.hpp>
 #include <skein/io/run_lock.hpp>
-#include <skein/io/run_scene.hpp>
 
 #include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
 #include "runs/finished_run.hpp"
-#include "runs/memory_limit.hpp"
-#include "runs/prolong_run.hpp"
+#include "runs/resumption.hpp"
 #include "runs/run_control.hpp"
 #include "runs/simulate.hpp"
 
@@ -33,25 +29,6 @@ struct ResumeOptions {
   bool from_start = false, quiet = false;
 };
 
-// What has to be said before going on; empty for a checkpoint of this very program.
-std::string compare_programs(const Checkpoint& checkpoint) {
-  std::string text;
-  if (checkpoint.text("program.commit") != commit() || checkpoint.text("program.version") != version())
-    text +=
-        fmt::format("the run was made by skein {} ({}), this is {} ({}): what follows may differ in the last digits",
-                    checkpoint.text("program.version"), checkpoint.text("program.commit"), version(), commit());
-  return text;
-}
-
-std::string describe_point(const ResumePoint& point, const SceneConfig& scene) {
-  if (!point.checkpoint)
-    return fmt::format("resume: there is no checkpoint; the run starts at t = {:g}", scene.time.start);
-  const double time = point.checkpoint->number("state.time"), span = scene.time.end - scene.time.start;
-  return fmt::format("resume: from '{}', t = {:.6g}, step {}; {:.1f} % of the simulated time is done, {:.6g} is left",
-                     point.path.string(), time, point.checkpoint->integer("state.step"),
-                     span > 0.0 ? 100.0 * (time - scene.time.start) / span : 100.0, scene.time.end - time);
-}
-
 int finish_run(const RunFolder& folder, const SceneConfig& scene, const Checkpoint& checkpoint) {
   const std::string mended = mend_finished_run(scene, folder, checkpoint);
   if (!mended.empty()) print_warning(fmt::format("{}: mended", mended));
@@ -65,25 +42,13 @@ int resume_run(const ResumeOptions& options) {
   const Runtime runtime(options.threads);  // before anything is changed: there may be no such threads
   const RunLock lock(folder);
   if (!lock.note().empty()) print_warning(lock.note());
-  const LaterEnd later = find_later_end(folder, options.overrides);
-  const ResumePoint point = find_resume_point(folder, options.from_start);
-  move_end(folder, later);
-  const SceneConfig scene = read_run_scene(folder);
-  check_memory(scene);
-  const std::string first_words = later.text.empty() ? "" : later.description + "\n";
-  std::string what_happened;
-  for (const std::string& rejected : point.rejected) what_happened += rejected + "\n";
-  if (is_at_end(scene, point)) {
-    if (!what_happened.empty()) print_warning(what_happened);
-    return finish_run(folder, scene, *point.checkpoint);
-  }
-  if (point.checkpoint) what_happened += compare_programs(*point.checkpoint);
-  if (!what_happened.empty()) print_warning(what_happened);
+  const Resumption run = prepare_resumption(folder, options.overrides, options.from_start);
+  if (!run.warnings.empty()) print_warning(run.warnings);
+  if (is_at_end(run.scene, run.point)) return finish_run(folder, run.scene, *run.checkpoint());
 
   RunControl control(options.max_walltime);
   TerminalListener listener(options.quiet);
-  return static_cast<int>(simulate(scene, folder, point.checkpoint ? &*point.checkpoint : nullptr, control, listener,
-                                   first_words + what_happened + describe_point(point, scene)));
+  return static_cast<int>(simulate(run.scene, folder, run.checkpoint(), control, listener, run.first_words));
 }
 
 }  // namespace

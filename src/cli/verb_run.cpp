@@ -1,7 +1,5 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/error.hpp>
-#include <skein/io/run_folder.hpp>
-#include <skein/io/run_lock.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "cli/common_arguments.hpp"
@@ -10,6 +8,7 @@
 #include "cli/verbs.hpp"
 #include "runs/child_run.hpp"
 #include "runs/run_control.hpp"
+#include "runs/run_start.hpp"
 #include "runs/simulate.hpp"
 #include "studies/plan.hpp"
 
@@ -20,7 +19,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace skein {
@@ -39,31 +37,11 @@ struct RunOptions {
   bool quiet = false;                                             ///< errors only
 };
 
-// The folder is locked before anything in it is written or replaced.
-RunFolder make_folder(const RunOptions& options, const NewRun& run, std::optional<RunLock>& lock) {
-  const auto use = [&](const RunFolder& found) {
-    if (!options.scene.empty() && found.is_part(options.scene))
-      throw Error(ExitCode::cannot_create,
-                  fmt::format("the scene '{}' belongs to the run that --overwrite would remove; copy it to another "
-                              "folder first.",
-                              options.scene));
-    lock.emplace(found);
-  };
-  RunFolder folder = RunFolder::create(options.folder, run.placed.text, options.overwrite, use, run.start);
-  if (!lock->note().empty()) print_warning(lock->note());
-  return folder;
-}
-
 NewRun make_run(const RunOptions& options) {
   if (options.from.empty() && options.scene.empty())
     throw Error(ExitCode::usage, "a scene is required, or --from RUN\n'skein run --help' shows what can be written");
   if (options.from.empty()) return make_new_run(options.scene, options.overrides);
-  NewRun run = make_child_run(options.from, options.scene, options.overrides);
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options.folder, run.placed.config.start.parent, ignored))
-    throw Error(ExitCode::cannot_create,
-                fmt::format("'{}' is the run to begin with; name another output folder", options.folder.string()));
-  return run;
+  return make_child_run(options.from, options.scene, options.overrides);
 }
 
 /// The scene as the cheapest adequate model has it.
@@ -94,7 +72,8 @@ int run_scene(const RunOptions& options) {
   }
   RunControl control(options.max_walltime);
   std::optional<RunLock> lock;
-  const RunFolder folder = make_folder(options, run, lock);
+  const RunFolder folder = create_run_folder(run, options.scene, options.folder, options.overwrite, lock);
+  if (!lock->note().empty()) print_warning(lock->note());
   TerminalListener listener(options.quiet);
   return static_cast<int>(simulate(placed.config, folder, nullptr, control, listener, run.what_happened));
 }

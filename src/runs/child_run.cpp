@@ -82,7 +82,8 @@ NewRun make_child_run(const std::string& parent_name, const std::filesystem::pat
   const std::filesystem::path file = scene.empty() ? parent.folder.scene() : scene;
   std::vector<std::string> changes{fmt::format("time.start={}", parent.time), "time.earlier_ends=[]"};
   changes.insert(changes.end(), overrides.begin(), overrides.end());
-  NewRun run{read_placed_scene(file, changes), encode_start(parent.position, parent.time), parent.what_happened};
+  NewRun run{read_placed_scene(file, changes), encode_start(parent.position, parent.time), parent.what_happened,
+             parent.name};
   SceneConfig& config = run.placed.config;
   check_same_fibers(config.fibers, parent, file);
   if (config.time.end <= parent.time)

@@ -13,6 +13,7 @@ struct NewRun {
   PlacedScene placed;
   std::string start;          ///< bytes of start.checkpoint; empty where the fibers start as they are written
   std::string what_happened;  ///< see ParentState
+  std::string parent{};       ///< folder of the earlier run; empty where the scene is not continued from one
 };
 
 /// Of a scene's file: see read_placed_scene. If the scene is that of a run that began with another one's state, so does

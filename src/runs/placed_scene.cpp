@@ -11,6 +11,7 @@
 
 #include "runs/memory_limit.hpp"
 
+#include <functional>
 #include <utility>
 
 namespace skein {
@@ -25,10 +26,10 @@ std::vector<KeyProblem> find_problems(const SceneConfig& scene) {
   return problems;
 }
 
-}  // namespace
-
-PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  SceneReading reading = read_scene(file, overrides, find_problems);
+/// @param name  of the scene, for messages
+/// @param read  reads it, with a check of its own
+PlacedScene place_scene(const std::string& name, const std::function<SceneReading(const SceneCheck&)>& read) {
+  SceneReading reading = read(find_problems);
   check_memory(lay_out_chains(reading.config));
   try {
     SceneConfig placed = place_fibers(resolve_chains(reading.config));
@@ -36,7 +37,7 @@ PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vect
     auto problems = find_time_problems(placed);
     const auto broken = find_symmetry_problems(placed);
     problems.insert(problems.end(), broken.begin(), broken.end());
-    if (!problems.empty()) read_scene(file, overrides, [&](const SceneConfig&) { return problems; });
+    if (!problems.empty()) read([&](const SceneConfig&) { return problems; });
     reading.config = resolve_times(std::move(placed));
     check_overlap(make_fibers(reading.config.fibers), reading.config.seed);
     std::string text = write_readable_scene(reading.config);
@@ -45,8 +46,19 @@ PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vect
     throw;
   } catch (const Error& error) {
     if (error.code() != ExitCode::scene_error) throw;
-    throw SceneError(file.string(), {Problem{{file.string(), 0, 0, -1}, error.what(), ""}});
+    throw SceneError(name, {Problem{{name, 0, 0, -1}, error.what(), ""}});
   }
+}
+
+}  // namespace
+
+PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return place_scene(file.string(), [&](const SceneCheck& check) { return read_scene(file, overrides, check); });
+}
+
+PlacedScene read_placed_scene_text(const std::string& text, const std::string& name,
+                                   const std::vector<std::string>& overrides) {
+  return place_scene(name, [&](const SceneCheck& check) { return read_scene_text(text, name, overrides, check); });
 }
 
 }  // namespace skein

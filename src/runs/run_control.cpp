@@ -50,6 +50,12 @@ double RunControl::seconds_left() const {
   return max_walltime_ - seconds_since_program_start() - spare_checkpoints * slowest_checkpoint_;
 }
 
+void RunControl::ask_to_stop(const std::string& reason) {
+  if (!reason_.empty()) return;
+  reason_ = reason;
+  asked_at_ = Clock::now();
+}
+
 RunControl::Demand RunControl::look(const double step_seconds) {
   if (!stop_is_asked() && seconds_left() < step_seconds) reason_ = "its wall time is used up";
   if (!reason_.empty()) return Demand::stop;

@@ -30,6 +30,9 @@ class RunControl {
   /// The folder whose files are looked for; a STOP file of an earlier time is removed.
   void watch(const RunFolder& folder);
 
+  /// Asks for a stop from within the run. @param reason  in words; an earlier one stays
+  void ask_to_stop(const std::string& reason);
+
   /// To be asked after every step. @param step_seconds  wall time of the last one
   Demand look(double step_seconds);
 
@@ -44,7 +47,8 @@ class RunControl {
   /// How long a checkpoint took: time for a slower one is kept free.
   void note_checkpoint(double seconds);
 
-  const std::string& reason() const { return reason_; }  ///< of the stop, in words
+  const std::string& reason() const { return reason_; }                        ///< of the stop, in words
+  int signal() const { return signals_.count() > 0 ? signals_.number() : 0; }  ///< the last one received; 0: none
   static double seconds_since_program_start();
 
  private:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <skein/io/trajectory.hpp>
+
 #include <cstdint>
 #include <string>
 
@@ -18,6 +20,9 @@ class RunListener {
 
   /// After every step.
   virtual void advance(double /*time*/, std::int64_t /*evaluations*/) {}
+
+  /// A frame has been given to the trajectory.
+  virtual void receive(const Frame& /*frame*/) {}
 
   /// The run is over, well or not: what was shown of its progress may be removed.
   virtual void end() {}

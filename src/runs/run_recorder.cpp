@@ -89,6 +89,7 @@ void RunRecorder::write_frame(const std::int64_t step, const double time, const 
   const Frame frame = make_frame(physics_, step, time, position);
   trajectory_.append(frame);
   note_regimes(frame);
+  messages_.listener().receive(frame);
 }
 
 void RunRecorder::note_regimes(const Frame& frame) {

@@ -48,9 +48,11 @@ StopSignals::~StopSignals() {
 
 int StopSignals::count() const { return n_received.load(); }
 
+int StopSignals::number() const { return last_signal.load(); }
+
 const char* StopSignals::name() const {
   for (const Signal& signal : stopping)
-    if (signal.number == last_signal.load()) return signal.name;
+    if (signal.number == number()) return signal.name;
   return "no signal";
 }
 

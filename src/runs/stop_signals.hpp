@@ -15,6 +15,7 @@ class StopSignals {
   StopSignals& operator=(const StopSignals&) = delete;
 
   int count() const;         ///< signals since the construction
+  int number() const;        ///< SIGTERM: the last one
   const char* name() const;  ///< "SIGTERM": the last one's
 
  private:

@@ -295,7 +295,7 @@ def check_tangle(script, folder):
     sys.path.insert(0, str(pathlib.Path(script).parent))
     import style
     import tangle
-    from run_reader import Nothing
+    from script import Nothing
 
     right, up, eye = tangle.view()
     check(np.allclose(np.stack([right, up, eye]) @ np.stack([right, up, eye]).T, np.eye(3)), "the view is oblique")

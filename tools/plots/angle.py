@@ -4,7 +4,7 @@ import numpy as np
 
 import style
 from diagnostics import open_diagnostics, read_words
-from run_reader import Nothing
+from script import Nothing
 
 MAX_FIBERS = 6
 LABORATORY = "$+x$"  # what angles count from where the run is not analyzed

@@ -4,7 +4,7 @@ import numpy as np
 
 import style
 from diagnostics import open_diagnostics
-from run_reader import Nothing
+from script import Nothing
 
 MAX_FIBERS = 6
 

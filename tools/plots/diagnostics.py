@@ -1,29 +1,19 @@
 """What `skein analyze` measured, as the pictures see it."""
 
-import os
-
-import h5py
 import numpy as np
 
-from plain_hdf5 import NotPlain, check_file
-from run_reader import Nothing
+from script import Nothing
+from skein_package import Error
 
 REGIMES = ["tumble", "C", "S", "snake", "coil", "three-dimensional"]
 
 
 def open_diagnostics(run):
-    """diagnostics.h5 of a run; it must be of the very frames that the run has."""
-    path = os.path.join(run.tables, "diagnostics.h5")
-    if not os.path.isfile(path):
-        raise Nothing(f"there is no {path}: run 'skein analyze' first")
+    """diagnostics.h5 of a run, as h5py has it."""
     try:
-        file = h5py.File(path, "r")
-        check_file(file)
-    except (OSError, RuntimeError, NotPlain):
-        raise Nothing(f"{path} cannot be read: run 'skein analyze' again") from None
-    if not np.array_equal(file["time"][()], run.frame_times):
-        raise Nothing(f"{path} is not of these frames: run 'skein analyze' again")
-    return file
+        return run.diagnostics.file
+    except Error as error:
+        raise Nothing(error) from None
 
 
 def read_words(file, attribute):

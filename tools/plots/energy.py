@@ -3,7 +3,7 @@
 import numpy as np
 
 import style
-from run_reader import Nothing
+from script import Nothing
 
 MAX_FIBERS = 6
 N_RATES = 150  # buckets of time over which evaluations are counted: single steps may be very short

@@ -6,7 +6,7 @@ import numpy as np
 import style
 from diagnostics import open_diagnostics, split_tracks
 from kymograph import MAX_FIBERS, MAX_FRAMES, cell_edges
-from run_reader import Nothing
+from script import Nothing
 
 TRAVELLING = 1
 LONG = 0.03  # of the run's time: a shorter track gets no word

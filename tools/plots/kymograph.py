@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import style
-from run_reader import Nothing
+from script import Nothing
 
 MAX_FIBERS = 4
 MAX_FRAMES = 1200  # more than a panel has rows of pixels

@@ -10,8 +10,8 @@ import numpy as np
 
 import shapes
 import style
-from output_file import replacing
-from run_reader import IO_ERROR, MISSING, PlotError, write_error
+from output_file import replacing, write_error
+from skein_package import MissingInput, OutputError
 
 FRAMES_PER_SECOND = 25
 MAX_FRAMES = 750  # half a minute
@@ -24,7 +24,7 @@ def find_ffmpeg():
         program = os.path.join(folder, "ffmpeg")
         if os.path.isabs(folder) and os.path.isfile(program) and os.access(program, os.X_OK):
             return program
-    raise PlotError(MISSING, "a movie needs ffmpeg: tools/setup.sh --with-movies installs it")
+    raise MissingInput("a movie needs ffmpeg: tools/setup.sh --with-movies installs it")
 
 
 def save(run, folder):
@@ -35,7 +35,7 @@ def save(run, folder):
         with replacing(path) as partial:
             draw(run, partial)
     except subprocess.CalledProcessError as error:
-        raise PlotError(IO_ERROR, f"{path} cannot be written: ffmpeg ended with {error.returncode}") from None
+        raise OutputError(f"{path} cannot be written: ffmpeg ended with {error.returncode}") from None
     except OSError as error:
         raise write_error(path, error) from None
     return path

@@ -1,7 +1,10 @@
 """Files that the pictures are written into: whole or not at all, and never through a link that somebody left there."""
 
 import contextlib
+import errno
 import os
+
+from skein_package import CannotCreate, OutputError
 
 
 def open_new(path):
@@ -28,3 +31,10 @@ def replacing(path):
 def write_whole(path, content):
     with replacing(path) as partial, open(partial, "r+b") as file:
         file.write(content)
+
+
+def write_error(path, error):
+    """What to raise for an OSError, from a write to that path."""
+    full = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+    kind = OutputError if error.errno in full else CannotCreate
+    return kind(f"{path} cannot be written: {error.strerror or error}")

@@ -15,12 +15,10 @@ import isolation  # noqa: F401, first
 import numpy as np
 
 import style
-from run_reader import DAMAGED, PlotError, Run
 from script import attempt, print_path
 from shapes import add_tubes
+from skein_package import DamagedData, Run, UsageError
 from style import plt
-
-USAGE = 64
 
 
 def read_image(path):
@@ -36,7 +34,7 @@ def read_image(path):
     extent, origin, spacing = numbers("WholeExtent"), numbers("Origin"), numbers("Spacing")
     nx, ny, nz = (int(extent[2 * axis + 1]) + 1 for axis in range(3))
     if nz != 1 or nx < 2 or ny < 2:
-        raise PlotError(USAGE, f"{path}: only a plane of constant z is drawn; write it with --plane z")
+        raise UsageError(f"{path}: only a plane of constant z is drawn; write it with --plane z")
     fields = {}
     order = "<" if "LittleEndian" in head else ">"
     for name, offset in re.findall(r'Name="(\w+)" NumberOfComponents="3" format="appended" offset="(\d+)"', head):
@@ -88,10 +86,10 @@ def draw_file(folder, image, picture):
     try:
         content = read_image(image)
     except (OSError, ValueError, AttributeError) as error:
-        raise PlotError(DAMAGED, f"{image} cannot be read: {error}") from None
+        raise DamagedData(f"{image} cannot be read: {error}") from None
     name, extension = os.path.splitext(os.path.basename(picture))
     if extension not in (".png", ".pdf", ".svg"):
-        raise PlotError(USAGE, f"{picture}: the name of a picture ends in .png, .pdf or .svg")
+        raise UsageError(f"{picture}: the name of a picture ends in .png, .pdf or .svg")
     print_path(style.save(draw(run, *content), os.path.dirname(picture), name, extension[1:]))
 
 

@@ -19,8 +19,8 @@ import tangle
 import timings
 from diagnostics import open_diagnostics
 from kymograph import cell_edges
-from run_reader import Nothing, Run
-from script import attempt, print_path, say
+from script import Nothing, attempt, print_path, say
+from skein_package import Run
 
 # The times of the paper's snapshots.
 ASPECT = 1.75  # of a snapshot

@@ -11,23 +11,16 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which Python's
 try:
     import isolation  # noqa: F401, first
 
-    import angle
-    import defects
-    import energy
-    import extrema
-    import kymograph
     import movie
-    import power
-    import shapes
     import style
-    from run_reader import DAMAGED, Nothing, PlotError, Run, write_error
-    from script import attempt, print_path, say
+    from output_file import write_error
+    from pictures import draw_pictures
+    from script import attempt, print_path
+    from skein_package import Run
 except ImportError as missing:
     sys.exit(f"skein plot: {missing}: install python3-matplotlib and python3-h5py")
 
 USAGE = 64
-PICTURES = {"shapes": shapes, "angle": angle, "curvature": kymograph, "energy": energy, "extrema": extrema,
-            "power": power, "defects": defects}
 
 
 class Parser(argparse.ArgumentParser):
@@ -62,17 +55,7 @@ def draw_all(options):
         os.makedirs(options.output, exist_ok=True)
     except OSError as error:
         raise write_error(options.output, error) from None
-    for name, picture in PICTURES.items():
-        try:
-            figure = picture.draw(run, options)
-        except Nothing as reason:
-            say(f"{name} is not drawn: {reason}")
-            continue
-        except OSError as error:
-            raise PlotError(DAMAGED, f"{run.path} cannot be read: {error}") from None
-        for note in options.notes:
-            say(note)
-        options.notes.clear()
+    for name, figure in draw_pictures(run, options):
         print_path(style.save(figure, options.output, name, options.format))
     if options.movie:
         print_path(movie.save(run, options.output))

@@ -2,7 +2,7 @@
 
 import style
 from diagnostics import REGIMES, open_diagnostics, regime_spans
-from run_reader import Nothing
+from script import Nothing
 
 
 def draw(run, options):

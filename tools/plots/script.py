@@ -4,10 +4,15 @@ import os
 import sys
 import unicodedata
 
-from run_reader import IO_ERROR, PlotError
+from skein_package import Error, OutputError
 
 INTERNAL, STOPPED = 70, 75
+verb = "plot"  # of the program, whose script this is
 UNSEEN = ("Cc", "Cf", "Cs", "Zl", "Zp")  # controls, marks that turn the direction, bytes of no encoding, separators
+
+
+class Nothing(Exception):
+    """The run holds too little for a picture: not an error."""
 
 
 def printable(text):
@@ -16,7 +21,7 @@ def printable(text):
 
 
 def say(text):
-    print(printable(f"skein plot: {text}"), file=sys.stderr)
+    print(printable(f"skein {verb}: {text}"), file=sys.stderr)
 
 
 def print_path(path, to_stderr=False):
@@ -28,7 +33,7 @@ def print_path(path, to_stderr=False):
     except OSError as error:
         # What is left in the stream would fail once more at the end of the program.
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
-        raise PlotError(IO_ERROR, f"standard output cannot be written: {error.strerror}") from None
+        raise OutputError(f"standard output cannot be written: {error.strerror}") from None
 
 
 def attempt(work):
@@ -37,7 +42,7 @@ def attempt(work):
         sys.stdout.reconfigure(errors="surrogateescape")  # names of files need not be text
     try:
         work()
-    except PlotError as error:
+    except Error as error:
         say(error)
         return error.code
     except KeyboardInterrupt:

@@ -10,8 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from output_file import write_whole
-from run_reader import write_error
+from output_file import write_error, write_whole
 
 WIDTH = 7.2  # inches, of a page of two columns
 DPI = 200

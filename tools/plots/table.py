@@ -7,8 +7,8 @@ import os
 import numpy as np
 
 import style
-from run_reader import MISSING, PlotError
 from script import attempt, print_path
+from skein_package import MissingInput
 
 
 def read_table(path):
@@ -16,7 +16,7 @@ def read_table(path):
         with open(path, newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))
     except OSError as error:
-        raise PlotError(MISSING, f"{path} cannot be read: {error.strerror}") from None
+        raise MissingInput(f"{path} cannot be read: {error.strerror}") from None
     values = np.array([[float(cell) for cell in row] for row in rows[1:]])
     return {name.split(" [")[0]: values[:, i] for i, name in enumerate(rows[0])}
 

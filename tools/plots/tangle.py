@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 import style
-from run_reader import Nothing
+from script import Nothing
 
 RUN, TIME = "L2280", 110.0
 ELEVATION, AZIMUTH = 35.0, -65.0  # degrees: of the eye above the plane of the shear, and about the vorticity

@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import style
-from run_reader import Nothing
+from script import Nothing
 
 PAPER_CROSSOVER, PAPER_LARGEST, PAPER_SPEEDUP = 1.7e4, 23634, 1.6
 

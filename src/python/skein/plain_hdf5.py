@@ -16,6 +16,14 @@ class NotPlain(Exception):
     """An object that is not as the program writes it; the message begins with its name."""
 
 
+def has_hard_link(group, name):
+    """Whether something of the group's own file has that name in it."""
+    try:
+        return isinstance(group.get(name, getlink=True), h5py.HardLink)
+    except TypeError:  # a kind of link that h5py does not know
+        return False
+
+
 def find_dataset(file, name):
     """The array of that name, reached over hard links alone and stored in one piece inside the file, or virtual."""
     place = ""
