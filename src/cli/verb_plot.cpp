@@ -1,22 +1,17 @@
 #include <skein/arrays/runtime.hpp>
-#include <skein/core/error.hpp>
 #include <skein/io/listed_segments.hpp>
-#include <skein/io/run_scene.hpp>
-#include <skein/io/run_summary.hpp>
+#include <skein/io/run_folder.hpp>
 
 #include "cli/common_arguments.hpp"
+#include "cli/fresh_tables.hpp"
 #include "cli/plot_scripts.hpp"
-#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-#include "runs/run_analysis.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace skein {
@@ -31,36 +26,6 @@ struct PlotOptions {
   bool movie = false;
 };
 
-/// Several pictures are of what `skein analyze` measures. Energies and powers take an evaluation of the fluid for each
-/// frame, which large runs are asked for only by the verb itself.
-/// @param results  where tables are written if the run's own are older than the run
-/// @returns the folder of tables that are up to date
-fs::path refresh_analysis(const RunFolder& folder, const fs::path& results) {
-  std::error_code ignored;  // what cannot be looked at is made anew
-  const fs::path tables = folder.analysis() / "diagnostics.h5";
-  if (fs::exists(tables, ignored) &&
-      fs::last_write_time(tables, ignored) >= fs::last_write_time(folder.index(), ignored))
-    return folder.analysis();
-  constexpr double most_pairs = 1e11;
-  const auto n_nodes = static_cast<double>(count_nodes(make_fibers(read_run_scene(folder).fibers)));
-  const double pairs = n_nodes * n_nodes * static_cast<double>(read_run_summary(folder.path()).frames);
-  const Runtime runtime;
-  write_analysis(analyze_run(folder, pairs <= most_pairs), results);
-  return results;
-}
-
-/// The folder of the run's tables; nothing where they cannot be made: other pictures may be possible still.
-std::optional<fs::path> find_tables(const PlotOptions& options) {
-  try {
-    const RunFolder folder = RunFolder::open(options.folder);
-    // A run whose pictures go elsewhere is only read: it may be somebody else's.
-    return refresh_analysis(folder, options.output.empty() ? folder.analysis() : fs::path(options.output) / "analysis");
-  } catch (const Error& cause) {
-    print_warning(fmt::format("the run is not analyzed: {}", cause.what()));
-    return std::nullopt;
-  }
-}
-
 int plot_run(const PlotOptions& options) {
   check_listed_segments(RunFolder::open(options.folder));  // the scripts that draw believe what they read
   // Made absolute, so that a folder whose name begins with a dash is no option.
@@ -69,7 +34,13 @@ int plot_run(const PlotOptions& options) {
     check_output(options.output, RunFolder::open(options.folder));
     arguments.push_back("--output=" + fs::absolute(options.output).string());
   }
-  if (const auto tables = find_tables(options)) arguments.push_back("--tables=" + fs::absolute(*tables).string());
+  {
+    const Runtime runtime;
+    // A run whose pictures go elsewhere is only read: it may be somebody else's.
+    const fs::path tables = options.output.empty() ? fs::path() : fs::path(options.output) / "analysis";
+    if (const auto fresh = refresh_tables(options.folder, tables))
+      arguments.push_back("--tables=" + fs::absolute(*fresh).string());
+  }
   if (!options.times.empty()) arguments.push_back(fmt::format("--times={}", fmt::join(options.times, ",")));
   arguments.push_back("--format=" + options.format);
   if (options.movie) arguments.push_back("--movie");

@@ -1,12 +1,10 @@
 #include <skein/core/error.hpp>
-#include <skein/core/terminal_text.hpp>
 #include <skein/io/run_check.hpp>
 
+#include "cli/check_text.hpp"
 #include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
-
-#include <fmt/format.h>
 
 #include <memory>
 #include <string>
@@ -18,26 +16,9 @@ int verify_run(const std::string& folder) {
   const RunCheck check = check_run(folder);
   for (const std::string& problem : check.problems) print_error(problem);
   for (const std::string& note : check.notes) print_note(note);
-  print_result(fmt::format("status: {}\nframes: {}\nsteps: {}\nsegments: {}\ncheckpoints: {}\nlast time: {}\n",
-                           make_terminal_line(check.status), check.frames, check.records, check.segments,
-                           check.checkpoints, check.last_time));
-  if (!check.parent.empty())
-    print_result(fmt::format("begun with the state of: {}\n", make_terminal_line(check.parent)));
-  if (!check.problems.empty()) {
-    const auto n_unreadable = static_cast<std::size_t>(check.unreadable);
-    const char* plural = check.problems.size() == 1 ? "" : "s";
-    if (n_unreadable == check.problems.size()) {
-      print_result(fmt::format("verdict: not known, {} problem{} of reading\n", n_unreadable, plural));
-      return static_cast<int>(ExitCode::io_error);
-    }
-    print_result(fmt::format("verdict: damaged, {} problem{}\n", check.problems.size(), plural));
-    return static_cast<int>(ExitCode::damaged_data);
-  }
-  print_result(
-      fmt::format("certificate: {}\nnot looked at: trajectory.xdmf, logs, tables and pictures; no step was computed "
-                  "again\nverdict: whole, no gap, no frame twice, unchanged since it was written\n",
-                  make_terminal_line(check.checksum)));
-  return 0;
+  print_result(describe_check(check));
+  if (check.problems.empty()) return 0;
+  return static_cast<int>(nothing_was_judged(check) ? ExitCode::io_error : ExitCode::damaged_data);
 }
 
 }  // namespace

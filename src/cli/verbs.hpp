@@ -19,6 +19,8 @@ Verb make_bench_verb();
 Verb make_plan_verb();
 Verb make_field_verb();
 Verb make_plot_verb();
+Verb make_view_verb();
+Verb make_report_verb();
 
 /// These two tell of all verbs, themselves included. @param verbs  must outlive them
 Verb make_help_verb(const std::vector<Verb>& verbs);

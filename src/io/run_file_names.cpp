@@ -51,7 +51,7 @@ bool is_picture(const std::string& name) {
   for (const std::string_view suffix : {".png", ".pdf", ".svg"})
     for (const std::string_view picture : pictures)
       if (whole.ends_with(suffix) && whole.substr(0, whole.size() - suffix.size()) == picture) return true;
-  return whole == "movie.mp4";
+  return whole == "movie.mp4" || whole == "view.html" || whole == "report.html";
 }
 
 bool is_rehearsal(const std::string& name) { return without_partial(name) == "rehearsal"; }
