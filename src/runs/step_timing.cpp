@@ -5,6 +5,8 @@
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/scene_times.hpp>
 
+#include <utility>
+
 namespace skein {
 
 StepTiming time_steps(const SceneConfig& asked, const double seconds) {
@@ -20,7 +22,13 @@ StepTiming time_steps(const SceneConfig& asked, const double seconds) {
     Kokkos::fence();
     return seconds_since(start);
   };
-  advance_for(0.2 * seconds);  // the first steps find out how long steps may be
+  // The first steps find out how long steps may be.
+  const auto start = WallClock::now();
+  double dt = 0.0;
+  for (bool grows = true; grows && seconds_since(start) < seconds && state.time < scene.time.end;) {
+    const double before = std::exchange(dt, integrator->advance(state, scene.time.end).dt);
+    grows = dt > 1.2 * before;
+  }
 
   StepTiming timing;
   timing.n_nodes = count_nodes(physics.fibers);

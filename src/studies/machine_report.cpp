@@ -79,7 +79,8 @@ std::string describe_machine(const MachineReport& report) {
     text += fmt::format("{:<14} {:>8g} {:>10} {:>11.4g} {:>10.3g} {:>6.0f} % {:>6.0f} % {:>6.0f} %  {}\n", "", length,
                         steps.n_nodes, 1e3 * steps.seconds_per_evaluation(), steps.seconds_per_time(),
                         100.0 * steps.fluid_share, 100.0 * steps.springs_share,
-                        100.0 * (1.0 - steps.fluid_share - steps.springs_share), steps.mobility);
+                        100.0 * (1.0 - steps.fluid_share - steps.springs_share),
+                        steps.mobility.substr(0, steps.mobility.find(',')));
   return text;
 }
 
