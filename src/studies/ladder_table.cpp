@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace skein {
@@ -33,6 +34,14 @@ double find_ladder_error(const int nodes_per_section) {
 double find_rigid_error() {
   // By `skein bench ladder --lengths 0.139 --rungs 9,6,1,0 --stiffness 100`.
   return 0.001;
+}
+
+double extrapolate_difference(const int nodes_per_section, const int finer, const double difference) {
+  if (nodes_per_section <= chain_rung || finer <= nodes_per_section) return difference;
+  const auto excess_over = [&](const int rung) {
+    return 1.0 / (1.0 * nodes_per_section * nodes_per_section) - 1.0 / (1.0 * rung * rung);
+  };
+  return difference * std::max(1.0, excess_over(finest_rung) / excess_over(finer));
 }
 
 int find_ladder_rung(const double tolerance) {

@@ -21,6 +21,11 @@ double find_ladder_error(int nodes_per_section);
 /// too.
 double find_rigid_error();
 
+/// The error of a tube, against the finest of the table, by its difference from one between them, if errors fall with
+/// the square of the number of nodes: what differences say where a scene makes more of them than the table's fibers do.
+/// The difference itself where one of them is no tube.
+double extrapolate_difference(int nodes_per_section, int finer, double difference);
+
 /// The fewest nodes on a section that are within a tolerance by that table; -1 where none are.
 int find_ladder_rung(double tolerance);
 

@@ -110,6 +110,19 @@ class Planner {
     return false;
   }
 
+  /// How much longer the scene takes than pilots did: phases drift with time, and are taken to go on as they did.
+  double rest() const { return plan_.end / plan_.pilot_end; }
+
+  /// The error of a rung whose answers differ so from a better one's.
+  double predict(const int rung, const int better, const double difference) const {
+    const double table = find_ladder_error(better);
+    // How much fibers bend, which rigid ones do not, the better rung says to within its own error of bending ones.
+    const double error = rung == rigid_rung
+                             ? difference * (1.0 + table) + find_rigid_error()
+                             : std::max(difference + table, extrapolate_difference(rung, better, difference));
+    return error * rest() + plan_.time_error;
+  }
+
   /// @param better  the pilot of the candidate `above`
   /// @returns true if the lower rung is good enough
   bool judge(const Climbed& lower, const std::size_t above, const Pilot& better) {
@@ -117,14 +130,9 @@ class Planner {
     candidate.found = pilots_.list_differences(lower.pilot, better);
     candidate.compared_with = plan_.candidates[above].nodes_per_section;
     const double difference = find_largest_error(candidate.found);
-    // Phases drift with time: what pilots did not reach is taken to go on as it did.
-    const double rest = plan_.end / plan_.pilot_end;
-    const double table = find_ladder_error(plan_.candidates[above].nodes_per_section);
-    // How much fibers bend, which rigid ones do not, the rung above says to within its own error of bending ones.
-    candidate.error = candidate.nodes_per_section == rigid_rung ? difference * (1.0 + table) + find_rigid_error()
-                                                                : difference + table;
-    candidate.error = candidate.error * rest + plan_.time_error;
-    if (!std::isfinite(plan_.candidates[above].error)) plan_.candidates[above].error = table * rest + plan_.time_error;
+    candidate.error = predict(candidate.nodes_per_section, candidate.compared_with, difference);
+    if (!std::isfinite(plan_.candidates[above].error))
+      plan_.candidates[above].error = find_ladder_error(candidate.compared_with) * rest() + plan_.time_error;
     if (!(candidate.error <= request_.tolerance)) compare_with_reference(candidate, lower.pilot, above + 1, difference);
     if (candidate.error <= request_.tolerance) return true;
     Question worst = Question::shape;
@@ -140,9 +148,8 @@ class Planner {
                               const double difference) {
     const auto& all = plan_.candidates;
     const auto leaves_room = [&](const Candidate& rung) {
-      const double rest = plan_.end / plan_.pilot_end;
       return !rung.is_barred &&
-             (difference + find_ladder_error(rung.nodes_per_section)) * rest + plan_.time_error <= request_.tolerance;
+             (difference + find_ladder_error(rung.nodes_per_section)) * rest() + plan_.time_error <= request_.tolerance;
     };
     const auto rung = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(above), all.end(), leaves_room);
     if (rung == all.end()) return;
@@ -158,7 +165,10 @@ class Planner {
     const Candidate& rung = plan_.candidates[index];
     reference_ = pilots_.run(
         rung.scene, fmt::format("{}, for {:.3g} s at most", describe_rung(rung.nodes_per_section), seconds), seconds);
-    if (reference_ && !reference_->failure.empty()) reference_.reset();
+    // Differences grow faster than time where fibers flip or meet: less than half of it says too little of the rest.
+    constexpr double least_share = 0.5;
+    if (reference_ && (!reference_->failure.empty() || reference_->end() < least_share * scene_.time.end))
+      reference_.reset();
   }
 
   void measure(Candidate& candidate, const Pilot& run) {
@@ -166,8 +176,7 @@ class Planner {
     plan_.pilot_end = std::min(plan_.pilot_end, reference_->end());
     candidate.found = pilots_.list_differences(run, *reference_);
     candidate.compared_with = rung;
-    const double rest = plan_.end / plan_.pilot_end;
-    candidate.error = (find_largest_error(candidate.found) + find_ladder_error(rung)) * rest + plan_.time_error;
+    candidate.error = predict(candidate.nodes_per_section, rung, find_largest_error(candidate.found));
   }
 
   /// Where one rung is not good enough, its neighbour above seems so, and numbers of nodes lie between: the first of

@@ -4,6 +4,7 @@
 #include <skein/fibers/fiber.hpp>
 #include <skein/physics/rigid_tube.hpp>
 
+#include "studies/ladder_table.hpp"
 #include "studies/paper_scenes.hpp"
 #include "studies/rung.hpp"
 #include "studies/rung_name.hpp"
@@ -11,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -117,6 +120,16 @@ TEST(Rung, IsRefusedWhereNoBlobServes) {
   thick.blob = 0.0049;
   thick.nodes_per_section = 3;
   EXPECT_THROW(fit_rung(thick, 48), Error);
+}
+
+TEST(LadderTable, ExtrapolatesDifferencesOfErrorsThatFallWithTheSquare) {
+  const auto answer = [](const int nodes) { return 3.0 - 0.7 / (1.0 * nodes * nodes); };
+  for (const auto& [coarse, fine] : std::vector<std::pair<int, int>>{{4, 5}, {4, 24}, {5, 12}, {18, 24}})
+    EXPECT_NEAR(extrapolate_difference(coarse, fine, answer(fine) - answer(coarse)),
+                answer(finest_rung) - answer(coarse), 1e-14)
+        << coarse << " " << fine;
+  EXPECT_EQ(extrapolate_difference(chain_rung, 4, 0.25), 0.25);
+  EXPECT_EQ(extrapolate_difference(9, 30, 0.25), 0.25);  // finer than what errors are told against
 }
 
 }  // namespace
