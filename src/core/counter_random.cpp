@@ -32,7 +32,7 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::a
 
 std::array<double, 2> CounterRandom::draw(const std::uint64_t number) const {
   const auto bits =
-      philox({static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), fiber_, purpose_},
+      philox({static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32), stream_, purpose_},
              {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
   return {to_unit_interval(bits[0], bits[1]), to_unit_interval(bits[2], bits[3])};
 }

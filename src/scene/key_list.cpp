@@ -13,7 +13,10 @@ class KeyCollector : public KeyVisitor {
   void begin_table(const Table& table) override { lead_ = table.name.empty() ? "" : table.name + "."; }
   void end_table() override {}
   void text(const Key& key, std::string&) override { add(key); }
-  void integer(const Key& key, std::int64_t&) override { add(key); }
+  void integer(const Key& key, std::int64_t&) override {
+    add(key);
+    keys.back().is_integer = true;
+  }
   void number(const Key& key, double&) override { add(key); }
   void vector(const Key& key, Vec3&) override { add(key); }
   void profile(const Key& key, std::vector<ProfilePoint>&) override { add(key); }
@@ -26,7 +29,7 @@ class KeyCollector : public KeyVisitor {
   std::vector<KeyName> keys;
 
  private:
-  void add(const Key& key) { keys.push_back({lead_ + key.name, {}}); }
+  void add(const Key& key) { keys.push_back({lead_ + key.name, {}, false}); }
   std::string lead_;
 };
 

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::size_t n_problems_shown = 100;
 
-std::string make_heading(const std::string& scene, const std::size_t n_problems) {
-  return fmt::format("{} in the scene {}", n_problems == 1 ? "1 problem" : fmt::format("{} problems", n_problems),
-                     scene);
+std::string make_heading(const std::string& kind, const std::string& file, const std::size_t n_problems) {
+  return fmt::format("{} in the {} {}", n_problems == 1 ? "1 problem" : fmt::format("{} problems", n_problems), kind,
+                     file);
 }
 
 auto order(const Problem& problem) {
@@ -43,8 +43,8 @@ std::string describe_problems(const std::vector<Problem>& problems) {
   return text;
 }
 
-SceneError::SceneError(const std::string& scene, std::vector<Problem> problems)
-    : Error(ExitCode::scene_error, make_heading(scene, problems.size()) + "\n" + describe_problems(problems)),
+SceneError::SceneError(const std::string& file, std::vector<Problem> problems, const std::string& kind)
+    : Error(ExitCode::scene_error, make_heading(kind, file, problems.size()) + "\n" + describe_problems(problems)),
       problems_(std::move(problems)) {}
 
 }  // namespace skein

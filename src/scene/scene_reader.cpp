@@ -25,9 +25,6 @@ std::string describe_range(const Range& range, const double number) {
 bool is_number(const SceneValue& value) {
   return value.kind == SceneValue::Kind::number || value.kind == SceneValue::Kind::integer;
 }
-double to_number(const SceneValue& value) {
-  return value.kind == SceneValue::Kind::integer ? static_cast<double>(value.integer) : value.number;
-}
 
 /// Collects the tables that have a key of some name.
 class KeyOwners : public KeyVisitor {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace skein {
 namespace {
@@ -24,6 +25,19 @@ const SceneValue* SceneValue::find(const std::string& key) const { return const_
 bool SceneValue::is_list_of_tables() const {
   return kind == Kind::list && !children.empty() &&
          std::all_of(children.begin(), children.end(), [](const auto& child) { return child.kind == Kind::table; });
+}
+
+double to_number(const SceneValue& value) {
+  if (value.kind == SceneValue::Kind::integer) return static_cast<double>(value.integer);
+  return value.kind == SceneValue::Kind::number ? value.number : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string format_value(const SceneValue& value) {
+  if (value.kind == SceneValue::Kind::text) return format_text(value.text);
+  if (value.kind != SceneValue::Kind::list) return describe_value(value);
+  std::vector<std::string> parts;
+  for (const SceneValue& child : value.children) parts.push_back(format_value(child));
+  return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
 std::string describe_kind(const SceneValue::Kind kind) {

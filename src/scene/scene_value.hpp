@@ -36,6 +36,12 @@ struct SceneValue {
   bool is_list_of_tables() const;
 };
 
+/// NaN for what is none.
+double to_number(const SceneValue& value);
+
+/// TOML of a number, an integer, text, true or false, or a list of these.
+std::string format_value(const SceneValue& value);
+
 /// As it would be written in the scene, cut to a readable length, without control characters.
 std::string describe_value(const SceneValue& value);
 

@@ -10,9 +10,6 @@
 namespace skein {
 namespace {
 
-// Deeper than any key of a scene. Values below are not looked at, whatever their depth.
-constexpr int n_levels_kept = 5;
-constexpr std::size_t n_list_values_kept = 64;
 constexpr int n_key_parts_allowed = 32;
 
 Place make_place(const toml::source_position& position) {
@@ -70,35 +67,35 @@ class KeyDepthCheck {
   int n_dots_ = 0;
 };
 
-SceneValue convert(const toml::node& node, int level);
+SceneValue convert(const toml::node& node, const ParseLimits& limits, int level);
 
-void add_children(SceneValue& value, const toml::table& table, const int level) {
+void add_children(SceneValue& value, const toml::table& table, const ParseLimits& limits, const int level) {
   for (const auto& [key, child] : table) {
-    SceneValue converted = convert(child, level + 1);
+    SceneValue converted = convert(child, limits, level + 1);
     converted.name = std::string(key.str());
     converted.name_place = make_place(key.source().begin);
     value.children.push_back(std::move(converted));
   }
 }
 
-void add_children(SceneValue& value, const toml::array& list, const int level) {
+void add_children(SceneValue& value, const toml::array& list, const ParseLimits& limits, const int level) {
   for (const auto& child : list) {
-    if (!child.is_table() && value.children.size() >= n_list_values_kept) continue;
-    value.children.push_back(convert(child, level + 1));
+    if (!child.is_table() && value.children.size() >= limits.list_values) continue;
+    value.children.push_back(convert(child, limits, level + 1));
   }
 }
 
-SceneValue convert(const toml::node& node, const int level) {
+SceneValue convert(const toml::node& node, const ParseLimits& limits, const int level) {
   SceneValue value;
   value.place = make_place(node.source().begin);
   if (const auto* table = node.as_table()) {
     value.kind = SceneValue::Kind::table;
     value.n_children = table->size();
-    if (level < n_levels_kept) add_children(value, *table, level);
+    if (level < limits.levels) add_children(value, *table, limits, level);
   } else if (const auto* list = node.as_array()) {
     value.kind = SceneValue::Kind::list;
     value.n_children = list->size();
-    if (level < n_levels_kept) add_children(value, *list, level);
+    if (level < limits.levels) add_children(value, *list, limits, level);
   } else if (const auto* text = node.as_string()) {
     value.kind = SceneValue::Kind::text;
     value.text = text->get();
@@ -130,10 +127,10 @@ std::string explain(const std::string& description) {
 
 }  // namespace
 
-SceneValue parse_toml(const std::string& text) {
+SceneValue parse_toml(const std::string& text, const ParseLimits& limits) {
   KeyDepthCheck(text).run();
   try {
-    return convert(toml::parse(std::string_view(text)), 0);
+    return convert(toml::parse(std::string_view(text)), limits, 0);
   } catch (const toml::parse_error& error) {
     throw SyntaxError{make_place(error.source().begin), explain(std::string(error.description()))};
   }

@@ -30,10 +30,11 @@ void sort_problems(std::vector<Problem>& problems);
 /// describe() of each on lines of their own; of a great many only the first.
 std::string describe_problems(const std::vector<Problem>& problems);
 
-/// All that is wrong with a scene, at once. what() is a heading and describe_problems().
+/// All that is wrong with a scene, or with a file about scenes, at once. what() is a heading and describe_problems().
 class SceneError : public Error {
  public:
-  SceneError(const std::string& scene, std::vector<Problem> problems);
+  /// @param kind  of the file, as the heading calls it
+  SceneError(const std::string& file, std::vector<Problem> problems, const std::string& kind = "scene");
   const std::vector<Problem>& problems() const { return problems_; }
 
  private:

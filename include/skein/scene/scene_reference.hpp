@@ -15,6 +15,7 @@ std::string write_markdown_reference();
 struct KeyName {
   std::string path;                ///< "time.method"
   std::vector<std::string> words;  ///< that it may be; empty where it is no choice
+  bool is_integer = false;
 };
 
 /// Every key there is, in the order of the reference.
