@@ -69,6 +69,14 @@ void check_that_all_come(const int n_threads) {
 
 }  // namespace
 
+int count_host_threads([[maybe_unused]] const int asked) {
+#if defined(KOKKOS_ENABLE_OPENMP)
+  return find_number(asked);
+#else
+  return 1;
+#endif
+}
+
 int choose_host_threads([[maybe_unused]] const int asked) {
 #if defined(KOKKOS_ENABLE_OPENMP)
   const int n_threads = find_number(asked);

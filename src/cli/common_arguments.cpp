@@ -27,6 +27,11 @@ Argument make_rung_option(std::string* rung, const std::string& meaning) {
       meaning + ": rigid, chain, or nodes on a section; length, rigidity and what a fiber is to the fluid stay");
 }
 
+Argument make_jobs_option(int* jobs) {
+  return make_argument("--jobs", jobs, "N", "Runs at a time (default: one for each thread)")
+      .within(1, most_host_threads);
+}
+
 Argument make_walltime_option(double* seconds) {
   return make_argument("--max-walltime", Duration{seconds}, "T",
                        "Stop in time, with a checkpoint: seconds, 30m, 2h or 1:30:00");

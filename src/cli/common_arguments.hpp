@@ -23,6 +23,9 @@ Argument make_rung_option(std::string* rung, const std::string& meaning);
 /// --threads N
 Argument make_threads_option(int* threads);
 
+/// --jobs N: of runs side by side
+Argument make_jobs_option(int* jobs);
+
 /// --max-walltime T, in seconds
 Argument make_walltime_option(double* seconds);
 

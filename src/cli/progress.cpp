@@ -49,42 +49,34 @@ std::string draw_bar(const double fraction, const int width) {
   return "[" + std::string(n_full, '#') + std::string(width - n_full, '.') + "]";
 }
 
-ProgressReport::Kind ProgressReport::choose_kind(const bool quiet) {
+ProgressLine::Kind ProgressLine::choose_kind(const bool quiet) {
   if (quiet) return Kind::silent;
   return stderr_is_terminal() ? Kind::bar : Kind::lines;
 }
 
-ProgressReport::ProgressReport(const Kind kind, const double start_time, const double end_time,
-                               const std::int64_t start_evaluations)
-    : kind_(kind), start_(Clock::now()), next_(start_ + (kind == Kind::bar ? bar_interval : line_interval)) {
-  progress_.start_time = progress_.time = start_time;
-  progress_.end_time = end_time;
-  progress_.start_evaluations = start_evaluations;
-}
+ProgressLine::ProgressLine(const Kind kind)
+    : kind_(kind), start_(Clock::now()), next_(start_ + (kind == Kind::bar ? bar_interval : line_interval)) {}
 
-ProgressReport::~ProgressReport() { clear(); }
+ProgressLine::~ProgressLine() { clear(); }
 
-void ProgressReport::update(const double time, const std::int64_t evaluations) {
+bool ProgressLine::is_due() const { return kind_ != Kind::silent && Clock::now() >= next_; }
+
+double ProgressLine::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+void ProgressLine::show(const double fraction, const std::string& text) {
   if (kind_ == Kind::silent) return;
-  const auto now = Clock::now();
-  if (now < next_) return;
-
-  progress_.time = time;
-  progress_.evaluations = evaluations;
-  progress_.wall_seconds = std::chrono::duration<double>(now - start_).count();
-  const std::string text = describe_progress(progress_);
   if (kind_ == Kind::bar) {
-    draw(text);
+    draw(fraction, text);
     bar_is_drawn_ = true;
-    next_ = now + bar_interval;
+    next_ = Clock::now() + bar_interval;
   } else {
     print(text + "\n");
-    next_ = now + line_interval;
+    next_ = Clock::now() + line_interval;
   }
 }
 
-void ProgressReport::draw(const std::string& text) const {
-  const std::string bar = draw_bar(compute_fraction(progress_), bar_width);
+void ProgressLine::draw(const double fraction, const std::string& text) const {
+  const std::string bar = draw_bar(fraction, bar_width);
   // A line that wraps could not be rewritten.
   const auto n_columns = static_cast<std::size_t>(count_terminal_columns());
   const std::string cut = text.substr(0, n_columns > bar.size() + 2 ? n_columns - bar.size() - 2 : 0);
@@ -92,9 +84,25 @@ void ProgressReport::draw(const std::string& text) const {
   print(fmt::format("\r{}{}{} {}\033[K", colored ? "\033[32m" : "", bar, colored ? "\033[0m" : "", cut));
 }
 
-void ProgressReport::clear() {
+void ProgressLine::clear() {
   if (bar_is_drawn_) print("\r\033[K");
   bar_is_drawn_ = false;
+}
+
+ProgressReport::ProgressReport(const ProgressLine::Kind kind, const double start_time, const double end_time,
+                               const std::int64_t start_evaluations)
+    : line_(kind) {
+  progress_.start_time = progress_.time = start_time;
+  progress_.end_time = end_time;
+  progress_.start_evaluations = start_evaluations;
+}
+
+void ProgressReport::update(const double time, const std::int64_t evaluations) {
+  if (!line_.is_due()) return;
+  progress_.time = time;
+  progress_.evaluations = evaluations;
+  progress_.wall_seconds = line_.seconds();
+  line_.show(compute_fraction(progress_), describe_progress(progress_));
 }
 
 }  // namespace skein

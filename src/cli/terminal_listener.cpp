@@ -5,7 +5,7 @@
 namespace skein {
 
 void TerminalListener::begin(const double time, const double end_time, const std::int64_t evaluations) {
-  progress_.emplace(ProgressReport::choose_kind(quiet_), time, end_time, evaluations);
+  progress_.emplace(ProgressLine::choose_kind(quiet_), time, end_time, evaluations);
 }
 
 void TerminalListener::say(const std::string& text) {

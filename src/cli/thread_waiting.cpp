@@ -8,6 +8,8 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <fstream>
+#include <string>
 #include <vector>
 #endif
 
@@ -28,6 +30,14 @@ void leave_own_place() {
   }
   if (CPU_COUNT(&processors) > 0) sched_setaffinity(0, sizeof processors, &processors);
 }
+
+/// The words that this program was called with.
+std::vector<std::string> read_own_words() {
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
+}
 #endif
 
 }  // namespace
@@ -38,6 +48,20 @@ void limit_thread_spinning([[maybe_unused]] char** argv) {
   if (setenv("GOMP_SPINCOUNT", "10000", 0) != 0) return;
   leave_own_place();
   execv("/proc/self/exe", argv);  // returns only where it is not possible; then the run is merely slower
+#endif
+}
+
+void leave_threads_unbound() {
+#ifdef SKEIN_RESTARTS_FOR_OPENMP
+  if (omp_get_proc_bind() == omp_proc_bind_false) return;
+  leave_own_place();
+  if (setenv("OMP_PROC_BIND", "false", 1) != 0 || unsetenv("OMP_PLACES") != 0 || unsetenv("GOMP_CPU_AFFINITY") != 0)
+    return;
+  std::vector<std::string> words = read_own_words();
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  execv("/proc/self/exe", pointers.data());
 #endif
 }
 

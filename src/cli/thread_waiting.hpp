@@ -11,4 +11,9 @@ namespace skein {
 /// OMP_WAIT_POLICY is left alone.
 void limit_thread_spinning(char** argv);
 
+/// Lets the system place the threads of the processes that this one is going to start side by side: with OMP_PROC_BIND
+/// or GOMP_CPU_AFFINITY each would bind its first thread to the same processor. The program starts itself anew, once,
+/// with the words that it was called with; to be called before anything is written.
+void leave_threads_unbound();
+
 }  // namespace skein

@@ -21,6 +21,7 @@ Verb make_field_verb();
 Verb make_plot_verb();
 Verb make_view_verb();
 Verb make_report_verb();
+Verb make_sweep_verb();
 
 /// These two tell of all verbs, themselves included. @param verbs  must outlive them
 Verb make_help_verb(const std::vector<Verb>& verbs);

@@ -2,6 +2,7 @@
 #include <skein/io/array_file.hpp>
 #include <skein/io/csv_file.hpp>
 
+#include "hdf5_reader.hpp"
 #include "hdf5_writer.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +22,14 @@ void write_array_file(const std::filesystem::path& path, const std::vector<Named
   }
   for (const auto& [name, text] : attributes) file.set_attribute("/", name, text);
   file.commit();
+}
+
+std::vector<double> read_array(const std::filesystem::path& path, const std::string& name) {
+  return Hdf5Reader(path).read_reals("/" + name, {any_extent}, Values::any);
+}
+
+std::string read_array_attribute(const std::filesystem::path& path, const std::string& name) {
+  return Hdf5Reader(path).text_attribute("/", name);
 }
 
 void write_csv(const std::filesystem::path& path, const std::vector<NamedArray>& columns) {

@@ -68,8 +68,9 @@ void Hdf5Writer::write(const std::string& dataset, const Number number, const Sh
   const std::string what = fmt::format("write {} bytes of", n_bytes);
   const Hdf5Handle space = make_space(shape);
   checked(space.id(), what.c_str(), dataset);
+  const Hdf5Handle creation = make_creation(dataset);
   const Hdf5Handle target = handle(H5Dcreate2(file_.id(), dataset.c_str(), type_in_file(number), space.id(),
-                                              make_groups_.id(), H5P_DEFAULT, H5P_DEFAULT),
+                                              make_groups_.id(), creation.id(), H5P_DEFAULT),
                                    H5Dclose, what.c_str(), dataset);
   if (n_bytes > 0)
     checked(H5Dwrite(target.id(), type_in_memory(number), H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what.c_str(),
@@ -77,8 +78,15 @@ void Hdf5Writer::write(const std::string& dataset, const Number number, const Sh
   if (!unit.empty()) set_attribute(dataset, "unit", unit);
 }
 
-Hdf5Handle Hdf5Writer::make_virtual_creation(const Number number, const std::string& dataset) const {
+// Without the time at which it was written: files of one content are equal.
+Hdf5Handle Hdf5Writer::make_creation(const std::string& dataset) const {
   Hdf5Handle creation = handle(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "prepare", dataset);
+  checked(H5Pset_obj_track_times(creation.id(), false), "prepare", dataset);
+  return creation;
+}
+
+Hdf5Handle Hdf5Writer::make_virtual_creation(const Number number, const std::string& dataset) const {
+  Hdf5Handle creation = make_creation(dataset);
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const std::int64_t no_count = -1;
   if (number == Number::float32 || number == Number::float64)

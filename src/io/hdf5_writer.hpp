@@ -53,6 +53,7 @@ class Hdf5Writer {
   Result checked(Result result, const char* what, const std::string& object) const;
   template <class Result>
   Hdf5Handle handle(Result result, Hdf5Handle::Close close, const char* what, const std::string& object) const;
+  Hdf5Handle make_creation(const std::string& dataset) const;
   Hdf5Handle make_virtual_creation(Number number, const std::string& dataset) const;
   void write_attribute(const std::string& object, const std::string& name, hid_t type, const Hdf5Handle& space,
                        const void* value);

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <sstream>
 #include <string>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -139,7 +140,7 @@ void refuse_if_it_may_live(const std::filesystem::path& path, const Owner& owner
 
 }  // namespace
 
-RunLock::RunLock(const RunFolder& folder) : path_(folder.lock()) {
+RunLock::RunLock(std::filesystem::path lock_file) : path_(std::move(lock_file)) {
   LockFile file = open_locked(path_);
   const Owner before = read_owner(read_all(file.descriptor));
   was_left_behind_ = before.process > 0;

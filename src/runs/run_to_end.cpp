@@ -20,9 +20,10 @@
 namespace skein {
 namespace {
 
-RunFolder open_or_create(const std::filesystem::path& path, const std::string& scene, std::optional<RunLock>& lock) {
+RunFolder open_or_create(const std::filesystem::path& path, const std::string& scene, const std::string& start,
+                         std::optional<RunLock>& lock) {
   const auto take_lock = [&lock](const RunFolder& folder) { lock.emplace(folder); };
-  if (!is_there(path / "scene.toml")) return RunFolder::create(path, scene, /*overwrite=*/false, take_lock);
+  if (!is_there(path / "scene.toml")) return RunFolder::create(path, scene, /*overwrite=*/false, take_lock, start);
   const RunFolder folder = RunFolder::open_begun(path);
   take_lock(folder);
   if (read_file(folder.scene()) != scene)
@@ -34,9 +35,9 @@ RunFolder open_or_create(const std::filesystem::path& path, const std::string& s
 }  // namespace
 
 ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& path, const double max_walltime,
-                    RunListener& listener) {
+                    RunListener& listener, const std::string& start) {
   std::optional<RunLock> lock;
-  const RunFolder folder = open_or_create(path, write_readable_scene(resolve_times(scene)), lock);
+  const RunFolder folder = open_or_create(path, write_readable_scene(resolve_times(scene)), start, lock);
   const ResumePoint point = find_resume_point(folder, /*from_start=*/false);
   if (is_at_end(scene, point)) {
     mend_finished_run(read_run_scene(folder), folder, *point.checkpoint);

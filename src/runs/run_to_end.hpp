@@ -6,15 +6,17 @@
 #include "runs/run_listener.hpp"
 
 #include <filesystem>
+#include <string>
 
 namespace skein {
 
 /// Brings the run of a scene in a folder to its end: begins it, goes on with it from its last checkpoint, or finds that
 /// nothing is left to do. Needs Kokkos.
 /// @param max_walltime  seconds since the program began
+/// @param start         bytes of start.checkpoint where the scene begins with another run's state
 /// @returns done, or stopped on request
 /// @throws Error(cannot_create) if the folder holds a run of another scene, or anything but a run
 ExitCode run_to_end(const SceneConfig& scene, const std::filesystem::path& folder, double max_walltime,
-                    RunListener& listener);
+                    RunListener& listener, const std::string& start = {});
 
 }  // namespace skein

@@ -46,6 +46,14 @@ StopSignals::~StopSignals() {
   for (const Signal& signal : stopping) sigaction(signal.number, old_action++, nullptr);
 }
 
+void StopSignals::let_them_end_this_process() {
+  for (const Signal& signal : stopping) {
+    struct sigaction action {};
+    if (sigaction(signal.number, nullptr, &action) == 0 && action.sa_handler == count_signal)
+      std::signal(signal.number, SIG_DFL);
+  }
+}
+
 int StopSignals::count() const { return n_received.load(); }
 
 int StopSignals::number() const { return last_signal.load(); }

@@ -14,6 +14,9 @@ class StopSignals {
   StopSignals(const StopSignals&) = delete;
   StopSignals& operator=(const StopSignals&) = delete;
 
+  /// In a process that is a copy of this one: they end it again.
+  static void let_them_end_this_process();
+
   int count() const;         ///< signals since the construction
   int number() const;        ///< SIGTERM: the last one
   const char* name() const;  ///< "SIGTERM": the last one's

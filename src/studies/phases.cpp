@@ -1,58 +1,80 @@
 #include "studies/phases.hpp"
 
-#include <skein/fibers/calibration.hpp>
+#include <skein/analysis/regime.hpp>
+#include <skein/core/error.hpp>
 #include <skein/fibers/start_check.hpp>
 #include <skein/io/array_file.hpp>
 #include <skein/scene/scene_file.hpp>
 
-#include "runs/run_to_end.hpp"
+#include "runs/memory_limit.hpp"
 #include "studies/rung.hpp"
 #include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
+#include <system_error>
+
 namespace skein {
 namespace {
 
-constexpr double shear_rate = 2.5;  // of the paper
+/// Columns of phases.csv; "perturbed" comes after the second.
+constexpr const char* columns[] = {
+    "length", "elasto_viscous_number", "regime",        "half_period",     "curvature_max",
+    "wave",   "hook_radius",           "snaking_speed", "symmetry_defect", "out_of_plane"};
+
+std::size_t find_quantity(const std::string& name) {
+  const auto& quantities = list_fiber_quantities();
+  const auto found = std::find_if(quantities.begin(), quantities.end(),
+                                  [&](const MeasuredQuantity& quantity) { return quantity.name == name; });
+  SKEIN_REQUIRE(found != quantities.end(), fmt::format("'{}' is measured", name));
+  return static_cast<std::size_t>(found - quantities.begin());
+}
 
 SceneConfig perturb(const SceneConfig& scene, const std::vector<std::string>& overrides) {
   return read_scene_text(write_scene(scene), "the perturbed scene", overrides, find_start_problems).config;
 }
 
-PhaseResult measure_point(const PhasePoint& point, const RunAnalysis& analysis) {
-  const Fiber& fiber = analysis.fibers[0];
-  const double bending = measure_beam_stiffness(fiber).bending;
-  const double viscosity = point.scene.fluid.viscosity;
-  return {fiber.length(), compute_elasto_viscous_numbers(fiber, viscosity, shear_rate, bending).with_log_4e_over_rho2,
-          point.is_perturbed, analysis.histories[0].summarize()};
+RunList list_runs(const PhaseStudy& study, const std::vector<PhasePoint>& points) {
+  RunList list;
+  list.runs = study.folder;
+  list.results = study.folder / "results";
+  for (const PhasePoint& point : points) {
+    list.names.push_back(point.folder);
+    list.costs.push_back(estimate_run_cost(point.scene));
+    list.largest_memory = std::max(list.largest_memory, static_cast<std::size_t>(estimate_memory(point.scene)));
+  }
+  list.make = [points](const std::size_t i) { return NewRun{{points[i].scene, {}, ""}, "", ""}; };
+  return list;
 }
 
-void write_results(const std::filesystem::path& path, const std::vector<PhaseResult>& results) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<NamedArray> columns;
-  const auto add = [&](const char* name, const char* unit, const auto& value_of) {
-    NamedArray& column = columns.emplace_back(NamedArray{name, unit, {}, {}});
-    for (const PhaseResult& result : results) column.values.push_back(static_cast<double>(value_of(result)));
+void write_results(const std::filesystem::path& path, const std::vector<PhasePoint>& points,
+                   const std::vector<std::optional<RunResult>>& results) {
+  std::vector<NamedArray> table;
+  const auto add = [&](const std::string& name, const char* unit, const auto& value_of) {
+    NamedArray& column = table.emplace_back(NamedArray{name, unit, {}, {}});
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (results[i] && results[i]->code == ExitCode::done) column.values.push_back(value_of(i));
   };
-  add("length", "length", [](const PhaseResult& r) { return r.length; });
-  add("elasto_viscous_number", "", [](const PhaseResult& r) { return r.elasto_viscous_number; });
-  add("perturbed", "", [](const PhaseResult& r) { return r.is_perturbed; });
-  add("regime", "", [](const PhaseResult& r) { return r.summary.regime; });
-  add("half_period", "time",
-      [](const PhaseResult& r) { return r.summary.half_periods.empty() ? none : r.summary.half_periods[0]; });
-  add("curvature_max", "1/length", [](const PhaseResult& r) { return r.summary.curvature_max; });
-  add("wave", "", [](const PhaseResult& r) { return r.summary.wave; });
-  add("hook_radius", "length",
-      [](const PhaseResult& r) { return r.summary.snaking ? r.summary.snaking->hook_radius : none; });
-  add("snaking_speed", "length/time",
-      [](const PhaseResult& r) { return r.summary.snaking ? r.summary.snaking->speed : none; });
-  add("symmetry_defect", "", [](const PhaseResult& r) { return r.summary.symmetry_defect_max; });
-  add("out_of_plane", "length", [](const PhaseResult& r) { return r.summary.out_of_plane_max; });
-  write_csv(path, columns);
+  for (const char* name : columns) {
+    if (table.size() == 2)
+      add("perturbed", "", [&](const std::size_t i) { return points[i].is_perturbed ? 1.0 : 0.0; });
+    const std::size_t quantity = find_quantity(name);
+    add(name, list_fiber_quantities()[quantity].unit,
+        [&](const std::size_t i) { return results[i]->measures.over_fibers(quantity); });
+  }
+  if (!table[0].values.empty()) write_csv(path, table);  // the one that is there is not replaced by nothing
 }
 
 }  // namespace
+
+std::string describe_phase(const PhasePoint& point, const RunMeasures& measures) {
+  const auto value = [&](const char* name) { return measures.over_fibers(find_quantity(name)); };
+  return fmt::format("{:<10.4g} {:<10.4g} {:<10} {}", value("length"), value("elasto_viscous_number"),
+                     point.is_perturbed ? "perturbed" : "straight",
+                     name_of(static_cast<Regime>(static_cast<int>(value("regime")))));
+}
 
 std::vector<PhasePoint> list_phase_points(const PhaseStudy& study) {
   std::vector<PhasePoint> points;
@@ -72,17 +94,24 @@ std::vector<PhasePoint> list_phase_points(const PhaseStudy& study) {
   return points;
 }
 
-ExitCode run_phase_study(const PhaseStudy& study, const std::vector<PhasePoint>& points, RunListener& listener,
-                         const std::function<void(const PhaseResult&)>& report) {
-  std::vector<PhaseResult> results;
-  for (const PhasePoint& point : points) {
-    const std::filesystem::path path = study.folder / point.folder;
-    if (run_to_end(point.scene, path, study.max_walltime, listener) == ExitCode::stopped) return ExitCode::stopped;
-    results.push_back(measure_point(point, analyze_run(RunFolder::open(path), /*with_forces=*/false)));
-    report(results.back());
-    write_results(study.folder / "phases.csv", results);
+ExitCode run_phase_study(const PhaseStudy& study, const std::vector<PhasePoint>& points, SideBySideListener& listener) {
+  const RunList list = list_runs(study, points);
+  std::error_code error;
+  std::filesystem::create_directories(list.results, error);
+  if (error)
+    throw Error(ExitCode::cannot_create,
+                fmt::format("cannot create '{}': {}.", list.results.string(), error.message()));
+  std::vector<std::size_t> all(points.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  // Each is looked at again, whether it is done or not: its folder may hold a run of another scene.
+  const auto results = run_side_by_side(list, all, study.how, listener);
+  write_results(study.folder / "phases.csv", points, results);
+  ExitCode worst = ExitCode::done;
+  for (const auto& result : results) {
+    if (!result) return ExitCode::stopped;
+    if (worst == ExitCode::done) worst = result->code;
   }
-  return ExitCode::done;
+  return worst;
 }
 
 }  // namespace skein

@@ -3,13 +3,10 @@
 #include <skein/core/error.hpp>
 #include <skein/scene/scene_config.hpp>
 
-#include "runs/run_analysis.hpp"
-#include "runs/run_listener.hpp"
 #include "studies/paper_scenes.hpp"
+#include "studies/side_by_side.hpp"
 
 #include <filesystem>
-#include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,7 +20,7 @@ struct PhaseStudy {
   int count = 20;                           ///< lengths, evenly apart
   int rung = paper_nodes_per_section;       ///< another: see make_rung_scene
   std::vector<std::string> perturbation;    ///< "key=value" of the scene; with any, each fiber is also run with them
-  double max_walltime = std::numeric_limits<double>::infinity();  ///< seconds since the program began
+  SideBySide how;
 };
 
 /// One point of the diagram, to be run.
@@ -33,22 +30,16 @@ struct PhasePoint {
   SceneConfig scene;
 };
 
-/// One point as it came out.
-struct PhaseResult {
-  double length = 0.0;
-  double elasto_viscous_number = 0.0;  ///< with c = ln(4e/rho^2), at the paper's shear rate
-  bool is_perturbed = false;
-  FiberSummary summary;
-};
+/// A row for people, of four columns: length, elasto-viscous number, start, regime.
+std::string describe_phase(const PhasePoint& point, const RunMeasures& measures);
 
 /// @throws SceneError for a perturbation that a scene cannot have
 std::vector<PhasePoint> list_phase_points(const PhaseStudy& study);
 
-/// Brings the runs of all points to their ends and measures them; phases.csv is whole after each. Runs that are done
-/// are not run again. Needs Kokkos.
-/// @param report  called with each point once it is measured
-/// @returns done, or stopped on request or by the wall time
-ExitCode run_phase_study(const PhaseStudy& study, const std::vector<PhasePoint>& points, RunListener& listener,
-                         const std::function<void(const PhaseResult&)>& report);
+/// Brings the runs of all points to their ends, side by side, measures them, and writes phases.csv. Runs that are done
+/// are not run again.
+/// @returns done; stopped on request or by the wall time; or why the first point failed that did, without which the
+///         table then is
+ExitCode run_phase_study(const PhaseStudy& study, const std::vector<PhasePoint>& points, SideBySideListener& listener);
 
 }  // namespace skein

@@ -22,6 +22,7 @@ class EmptyNames(InFreshFolder):
             ["field", "run", "-o", ""], ["field", "", "-o", "flow.vti"], ["field", "run", "-o", "flow.vti", "--plot", ""],
             ["field", "run", "-o", "flow.vti", "--plot=", "run"], ["plot", ""], ["plot", "run", "-o", ""],
             ["plot", "--output=", "run"], ["phases", "-o", ""], ["phases", "--output="],
+            ["sweep", "scene.toml", "-o", ""], ["sweep", "", "-o", "new"], ["sweep", "scene.toml", "--output=", "new"],
             ["reproduce", "lagrone2019", "-o", ""], ["reproduce", "lagrone2019", "--output=", "other"],
         ):
             with self.subTest(arguments=arguments):

@@ -21,6 +21,10 @@ class Runtime {
   Runtime& operator=(const Runtime&) = delete;
 };
 
+/// How many host threads a Runtime would take; starts none. @throws Error(usage) as Runtime does; 1 where there are
+/// none
+int count_host_threads(int asked = 0);
+
 /// One line: backend, device and threads, as a run's first lines print it.
 std::string describe_backend();
 
