@@ -19,8 +19,9 @@ namespace {
 
 constexpr std::int64_t most_frames = 40;  ///< that are read for the box
 constexpr int most_times = 60;
-constexpr int n_along = 11;     ///< points along the box's longest side
-constexpr double margin = 0.1;  ///< of the longest side, on each side
+constexpr int n_along = 12, n_across = 5;  ///< points along the box's longest side, and along any at least
+constexpr double margin = 0.1;             ///< of the longest side, on each side
+constexpr double least_size = 0.3;         ///< of a side in the plane of x and y, of the longest
 
 struct Box {
   Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -41,22 +42,25 @@ Box find_box(const TrajectoryReader& reader) {
   return box;
 }
 
-/// Evenly over one side, with the margin; a side that is short against the spacing has its middle alone.
-std::vector<double> divide(const double low, const double high, const double spacing, const double extra) {
-  const int n = 1 + static_cast<int>(std::floor((high - low + 2.0 * extra) / spacing * (1.0 + 1e-9)));
+/// Evenly over one side, with the margin; a flat one has its middle alone.
+std::vector<double> divide(const double low, const double high, const double longest, const bool is_flat) {
+  const double middle = 0.5 * (low + high), size = std::max(high - low, least_size * longest) + 2.0 * margin * longest;
+  if (is_flat) return {middle};
+  const int n =
+      std::max(n_across, static_cast<int>(std::lround((n_along - 1) * size / (longest * (1.0 + 2.0 * margin)))));
   std::vector<double> places;
-  for (int i = 0; i < n; ++i) places.push_back(0.5 * (low + high) + (i - 0.5 * (n - 1)) * spacing);
-  return high - low < spacing ? std::vector<double>{0.5 * (low + high)} : places;
+  for (int i = 0; i < n; ++i) places.push_back(middle + (static_cast<double>(i) / (n - 1) - 0.5) * size);
+  return places;
 }
 
+/// Fibers that keep to a line of the plane of x and y, where most flows are, are shown the flow beside it.
 std::vector<Vec3> make_grid(const Box& box) {
   const Vec3 size = box.high - box.low;
-  const double longest = std::max({size.x, size.y, size.z, 1e-300}), extra = margin * longest;
-  const double spacing = (longest + 2.0 * extra) / (n_along - 1);
+  const double longest = std::max({size.x, size.y, size.z, 1e-300});
   std::vector<Vec3> points;
-  for (const double z : divide(box.low.z, box.high.z, spacing, extra))
-    for (const double y : divide(box.low.y, box.high.y, spacing, extra))
-      for (const double x : divide(box.low.x, box.high.x, spacing, extra)) points.push_back({x, y, z});
+  for (const double z : divide(box.low.z, box.high.z, longest, size.z < 0.1 * longest))
+    for (const double y : divide(box.low.y, box.high.y, longest, false))
+      for (const double x : divide(box.low.x, box.high.x, longest, false)) points.push_back({x, y, z});
   return points;
 }
 

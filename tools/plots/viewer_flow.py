@@ -16,6 +16,6 @@ def read_flow(path):
     rows = rows.reshape(len(times), -1, 7)
     points = rows[0, :, 1:4]
     apart = [np.diff(np.unique(points[:, axis])) for axis in range(3)]
-    spacing = min((steps.min() for steps in apart if len(steps)), default=1.0)
-    return {"times": times.tolist(), "points": pack(points.astype("<f4")), "spacing": float(spacing),
+    spacings = [float(steps.min()) for steps in apart if len(steps)] or [1.0]
+    return {"times": times.tolist(), "points": pack(points.astype("<f4")), "widest": max(spacings), "narrowest": min(spacings),
             "velocities": pack(rows[:, :, 4:7].astype("<f4"))}

@@ -1,6 +1,7 @@
 "use strict";
 
-// The background flow as arrows on a grid of points; the longest is nearly as long as two points are apart.
+// The background flow as arrows on a grid of points; the longest is nearly as long as two points are apart where they are
+// farthest from each other.
 
 class Arrows {
   constructor(flow) {
@@ -11,8 +12,8 @@ class Arrows {
     let fastest = 0;
     for (let i = 0; i < this.velocities.length; i += 3)
       fastest = Math.max(fastest, Math.hypot(this.velocities[i], this.velocities[i + 1], this.velocities[i + 2]));
-    this.scale = fastest > 0 ? (0.85 * flow.spacing) / fastest : 0;
-    this.width = 0.05 * flow.spacing;
+    this.scale = fastest > 0 ? (0.85 * flow.widest) / fastest : 0;
+    this.width = Math.min(0.045 * flow.widest, 0.12 * flow.narrowest);
     const material = new THREE.MeshStandardMaterial({ color: 0x8aa0b4, transparent: true, opacity: 0.55, depthWrite: false });
     this.mesh = new THREE.InstancedMesh(this.makeShape(), material, this.n);
     this.mesh.frustumCulled = false;

@@ -22,7 +22,7 @@ class Player {
     const asked = new URLSearchParams(location.hash.slice(1));  // page.html#t=5.44&camera=oblique
     for (const name of ["colour", "fiber", "camera", "speed"])
       if ([...element(name).options].some((option) => option.value === asked.get(name))) element(name).value = asked.get(name);
-    element("follow").checked = asked.has("follow");
+    element("follow").checked = asked.get("follow") !== "no";
     this.listen();
     this.paintPanels();
     this.goTo(Math.min(view.times[nFrames - 1], Math.max(view.times[0], +asked.get("t") || 0)));
