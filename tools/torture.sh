@@ -11,7 +11,7 @@ Builds skein and tries to break its runs: kills, restarts, signals, write errors
 that are none, readers, fuzzers, and all tests under sanitizers. Prints one table; the exit code is 0 if every promise was
 kept. Filling a disk needs root.
 
-  --campaign       the larger counts, for a release: about fifty minutes of one core, and the sanitized tests besides
+  --campaign       the larger counts, for a release
   --share NUMBER   of the counts, such as 0.2, each rounded up
   --short          the small counts, those of CTest: a minute, without fuzzers and sanitizers
   --program PATH   torture this skein instead of building one

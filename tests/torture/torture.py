@@ -36,7 +36,7 @@ COUNTS = {
                   faults=4, readings=20, planted=12, descriptors=7),
     "usual": dict(kills=50, restarts=24, stops=5, full_disks=10, write_errors=40, damages=200, files=300, crafted_files=370, harms=60,
                   scenes=2000, faults=50, readings=200, planted=120, descriptors=14),
-    # About forty minutes of one core where FOLDER is in memory.
+    # By what single tries take some forty minutes of one core, where FOLDER is in memory.
     "campaign": dict(kills=1000, restarts=96, stops=10, full_disks=20, write_errors=100, damages=500, files=2000,
                      crafted_files=400, harms=200, scenes=8000, faults=120, readings=1000, planted=300, descriptors=28),
 }
