@@ -183,20 +183,25 @@ SceneConfig place_fibers(const SceneConfig& scene) {
   return placed;
 }
 
-void check_overlap(const std::vector<Fiber>& fibers, const std::uint64_t seed) {
+std::vector<KeyProblem> find_overlap_problems(const SceneConfig& scene, const std::vector<Fiber>& placed) {
+  const bool is_grid = scene.placement.kind == PlacementKind::grid;
+  const char* advice = is_grid ? "Make placement.spacing larger." : "Move one of them, or let [placement] find places.";
   std::vector<Capsule> capsules;
-  for (const Fiber& fiber : fibers) capsules.push_back(make_capsule(fiber));
-  for (std::size_t i = 0; i < fibers.size(); ++i)
+  for (const Fiber& fiber : placed) capsules.push_back(make_capsule(fiber));
+  std::vector<KeyProblem> problems;
+  for (std::size_t i = 0; i < placed.size() && !(is_grid && !problems.empty()); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       if (gap_between(capsules[i], capsules[j]) >= 0.0) continue;
-      const double needed = fibers[i].config.radius + fibers[j].config.radius;
-      const double distance = find_overlap(fibers[j], fibers[i], seed);
-      if (std::isfinite(distance))
-        throw Error(ExitCode::scene_error,
-                    fmt::format("fibers {} and {} overlap at the start: their centrelines come as near as {:.4g}, and "
-                                "their radii together are {:.4g}. Move one of them, or let [placement] find places.",
-                                j, i, distance, needed));
+      const double distance = find_overlap(placed[j], placed[i], scene.seed);
+      if (!std::isfinite(distance)) continue;
+      problems.push_back(
+          {is_grid ? "placement.spacing" : fmt::format("fiber[{}].center", i),
+           fmt::format("fibers {} and {} overlap at the start: their centrelines come as near as {:.4g}, and their "
+                       "radii together are {:.4g}. {}",
+                       j, i, distance, placed[i].config.radius + placed[j].config.radius, advice)});
+      break;
     }
+  return problems;
 }
 
 }  // namespace skein

@@ -12,7 +12,9 @@
 #include "runs/memory_limit.hpp"
 
 #include <functional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace skein {
 
@@ -26,39 +28,50 @@ std::vector<KeyProblem> find_problems(const SceneConfig& scene) {
   return problems;
 }
 
-/// @param name  of the scene, for messages
-/// @param read  reads it, with a check of its own
-PlacedScene place_scene(const std::string& name, const std::function<SceneReading(const SceneCheck&)>& read) {
-  SceneReading reading = read(find_problems);
-  check_memory(lay_out_chains(reading.config));
+std::vector<KeyProblem> find_problems_of_placed(const SceneConfig& scene, const SceneConfig& placed) {
+  auto problems = find_time_problems(placed);
+  for (const auto& found : {find_symmetry_problems(placed), find_overlap_problems(scene, make_fibers(placed.fibers))})
+    problems.insert(problems.end(), found.begin(), found.end());
+  return problems;
+}
+
+using Reject = std::function<void(const std::vector<KeyProblem>&)>;
+
+SceneConfig place(const SceneConfig& scene, const Reject& reject) {
   try {
-    SceneConfig placed = place_fibers(resolve_chains(reading.config));
-    // They are only known once fibers are placed, and only the file knows where their keys stand.
-    auto problems = find_time_problems(placed);
-    const auto broken = find_symmetry_problems(placed);
-    problems.insert(problems.end(), broken.begin(), broken.end());
-    if (!problems.empty()) read([&](const SceneConfig&) { return problems; });
-    reading.config = resolve_times(std::move(placed));
-    check_overlap(make_fibers(reading.config.fibers), reading.config.seed);
-    std::string text = write_readable_scene(reading.config);
-    return {std::move(reading.config), std::move(reading.warnings), std::move(text)};
-  } catch (const SceneError&) {
-    throw;
+    return place_fibers(scene);
   } catch (const Error& error) {
-    if (error.code() != ExitCode::scene_error) throw;
-    throw SceneError(name, {Problem{{name, 0, 0, -1}, error.what(), ""}});
+    if (error.code() == ExitCode::scene_error) reject({{"placement.count", error.what()}});
+    throw;
   }
 }
 
 }  // namespace
 
 PlacedScene read_placed_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  return place_scene(file.string(), [&](const SceneCheck& check) { return read_scene(file, overrides, check); });
+  return read_placed_scene_text(read_scene_bytes(file), file.string(), overrides);
 }
 
 PlacedScene read_placed_scene_text(const std::string& text, const std::string& name,
                                    const std::vector<std::string>& overrides) {
-  return place_scene(name, [&](const SceneCheck& check) { return read_scene_text(text, name, overrides, check); });
+  SceneReading reading = read_scene_text(text, name, overrides, find_problems);
+  check_memory(lay_out_chains(reading.config));
+  // What is only known once fibers are placed is said where its key stands, which only the text knows.
+  const auto reject = [&](const std::vector<KeyProblem>& problems) {
+    if (!problems.empty()) read_scene_text(text, name, overrides, [&](const SceneConfig&) { return problems; });
+  };
+  try {
+    SceneConfig placed = place(resolve_chains(reading.config), reject);
+    reject(find_problems_of_placed(reading.config, placed));
+    reading.config = resolve_times(std::move(placed));
+    std::string resolved = write_readable_scene(reading.config);
+    return {std::move(reading.config), std::move(reading.warnings), std::move(resolved)};
+  } catch (const SceneError&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::scene_error) throw;
+    throw SceneError(name, {Problem{{name, 0, 0, -1}, error.what(), ""}});
+  }
 }
 
 }  // namespace skein

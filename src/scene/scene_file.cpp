@@ -35,9 +35,11 @@ SceneReading read_scene_text(const std::string& text, const std::string& name,
   return reading;
 }
 
+std::string read_scene_bytes(const std::filesystem::path& file) { return read_toml_file(file, scene_file); }
+
 SceneReading read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                         const SceneCheck& check) {
-  return read_scene_text(read_toml_file(file, scene_file), file.string(), overrides, check);
+  return read_scene_text(read_scene_bytes(file), file.string(), overrides, check);
 }
 
 std::string write_readable_scene(const SceneConfig& scene) {

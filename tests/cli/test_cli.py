@@ -50,6 +50,15 @@ class BadScenes(InFreshFolder):
         self.assertEqual(len(problem_lines(result.stderr)), 1)
         self.assertIn(expected, result.stderr)
 
+    def test_a_scene_through_a_pipe_is_refused_as_one_in_a_file(self):
+        """Also for what is only known once fibers are placed: a pipe gives its bytes once."""
+        through_pipe = ("sh", "-c", 'cat "$3" | "$0" "$1" "$2"')
+        scene = SOURCES / "tests/cli/bad_scenes/overlap.toml"
+        result = skein("validate", "/dev/stdin", scene, before=through_pipe)
+        self.assertEqual(result.returncode, SCENE_ERROR, result.stderr)
+        expected = scene.read_text().splitlines()[0].removeprefix("#! overlap.toml")
+        self.assertEqual(problem_lines(result.stderr), [f"/dev/stdin{expected}"])
+
     def test_an_empty_file_is_called_empty(self):
         self.check_single("", "scene.toml:1:1: the file is empty")
         self.check_single(" \n\t\n", "scene.toml:1:1: the file is empty")

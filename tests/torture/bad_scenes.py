@@ -61,8 +61,7 @@ def judge(program, number, scene):
     known = valid or result.returncode in (SCENE_ERROR, MISSING)
     require(known, f"scene {number}: exit code {result.returncode}: {result.stderr}\n{scene!r}")
     if not valid:
-        # Fibers that overlap, or find no place, have no line, but a name.
-        named = re.search(r"scene\.toml:(\d+:\d+:| fibers | placement)", result.stderr)
+        named = re.search(r"scene\.toml:\d+:\d+:", result.stderr)
         require(named, f"scene {number}: no place is named: {result.stderr}")
         if number % 10 == 0:
             refused = program.call([program.path, "run", path, "-o", output], timeout=20)

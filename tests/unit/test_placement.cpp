@@ -82,7 +82,7 @@ TEST(Placement, RandomFibersAreInTheBoxAndDoNotTouch) {
   const SceneConfig placed = place_fibers(scene);
   ASSERT_EQ(placed.fibers.size(), 24u);
   const auto fibers = make_fibers(placed.fibers);
-  check_overlap(fibers, scene.seed);
+  EXPECT_TRUE(find_overlap_problems(scene, fibers).empty());
   double nearest = 1.0;
   Vec3 mean_square;
   for (const Fiber& a : fibers) {
@@ -129,12 +129,17 @@ TEST(Placement, AFullBoxIsAnErrorWithNumbers) {
 }
 
 TEST(Overlap, IsFoundBetweenStraightAndBentFibers) {
-  FiberConfig first, second;
+  SceneConfig scene;
+  scene.fibers.resize(2);
+  FiberConfig &first = scene.fibers[0], &second = scene.fibers[1];
+  const auto problems = [&] { return find_overlap_problems(scene, make_fibers(scene.fibers)); };
   second.direction = {0, 0, 1};
   second.center = {0.02, 0.0100001, 0};  // radii 0.005
-  check_overlap(make_fibers({first, second}), 1);
+  EXPECT_EQ(problems().size(), 0u);
   second.center.y = 0.0099999;
-  const std::string message = error_of([&] { check_overlap(make_fibers({first, second}), 1); });
+  ASSERT_EQ(problems().size(), 1u);
+  EXPECT_EQ(problems()[0].key, "fiber[1].center");
+  const std::string message = problems()[0].message;
   EXPECT_NE(message.find("fibers 0 and 1"), std::string::npos) << message;
   EXPECT_NE(message.find("0.01."), std::string::npos) << message;
 
@@ -143,11 +148,30 @@ TEST(Overlap, IsFoundBetweenStraightAndBentFibers) {
   first.start_amplitude = 0.1;
   const auto with_plane = [&](const double plane) {
     first.start_plane = plane;
-    return error_of([&] { check_overlap(make_fibers({first, second}), 1); });
+    return problems().size();
   };
-  check_overlap(make_fibers({second}), 1);
-  EXPECT_NE(with_plane(0.0), "");
-  EXPECT_EQ(with_plane(180.0), "");
+  EXPECT_EQ(with_plane(0.0), 1u);
+  EXPECT_EQ(with_plane(180.0), 0u);
+}
+
+TEST(Overlap, IsToldOnceForEachFiberAndOnceForAGrid) {
+  SceneConfig scene;
+  scene.fibers.resize(5);
+  scene.fibers[3].center = {0.0, 0.0, 0.02};  // the others are in one place
+  const auto found = find_overlap_problems(scene, make_fibers(scene.fibers));
+  ASSERT_EQ(found.size(), 3u);
+  const int fiber[] = {1, 2, 4};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(found[i].key, "fiber[" + std::to_string(fiber[i]) + "].center");
+    EXPECT_EQ(found[i].message.find("fibers 0 and " + std::to_string(fiber[i])), 0u) << found[i].message;
+  }
+  scene.placement.kind = PlacementKind::grid;
+  scene.placement.grid = {1, 4, 3};
+  scene.placement.spacing = {1.0, 0.02, 0.0099};
+  const auto of_grid = find_overlap_problems(scene, make_fibers(place_fibers(scene).fibers));
+  ASSERT_EQ(of_grid.size(), 1u);
+  EXPECT_EQ(of_grid[0].key, "placement.spacing");
+  EXPECT_EQ(of_grid[0].message.find("fibers 0 and 4"), 0u) << of_grid[0].message;
 }
 
 }  // namespace

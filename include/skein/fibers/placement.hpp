@@ -2,8 +2,8 @@
 
 #include <skein/fibers/fiber.hpp>
 #include <skein/scene/scene_config.hpp>
+#include <skein/scene/scene_file.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace skein {
@@ -14,8 +14,10 @@ namespace skein {
 /// @throws Error(scene_error) if random fibers do not fit, with how many did
 SceneConfig place_fibers(const SceneConfig& scene);
 
-/// @param seed  of random bends
-/// @throws Error(scene_error) if the tubes of two fibers overlap at the start, their ends being flat
-void check_overlap(const std::vector<Fiber>& fibers, std::uint64_t seed);
+/// Which fibers overlap at the start with one before them, their ends being flat: at most one problem for each fiber as
+/// it is written, and one for a grid, whose copies stand too near.
+/// @param scene   as it is written
+/// @param placed  its fibers where place_fibers puts them
+std::vector<KeyProblem> find_overlap_problems(const SceneConfig& scene, const std::vector<Fiber>& placed);
 
 }  // namespace skein

@@ -37,6 +37,11 @@ SceneReading read_scene(const std::filesystem::path& file, const std::vector<std
 SceneReading read_scene_text(const std::string& text, const std::string& name,
                              const std::vector<std::string>& overrides, const SceneCheck& check = {});
 
+/// The bytes of a scene's file, which may be a pipe, and so give them once only.
+/// @throws SceneError if there are more than scenes have; Error(missing_input) if the file is not there or cannot be
+/// read
+std::string read_scene_bytes(const std::filesystem::path& file);
+
 /// The scene as TOML with every key, so that it no longer depends on defaults. Reads back to identical values.
 std::string write_scene(const SceneConfig& scene);
 
