@@ -208,20 +208,6 @@ TEST_P(SumAtTargets, PushesTwiceAsHardAheadAsBesideFarAway) {
               std::max(1e-9, 2.0 * GetParam().tolerance));
 }
 
-// Barriers and ranks of a team matter only where it has several threads.
-TEST(StokesletTeams, ResultDoesNotDependOnTheTeamSize) {
-  using Policy = Kokkos::TeamPolicy<HostSpace>;
-  const int largest = Policy(1, 1).team_size_max([](const Policy::member_type&) {}, Kokkos::ParallelForTag());
-  if (largest < 2) GTEST_SKIP() << "this host space has no teams of several threads";
-  const reference::PointForces from = make_sources(Cloud::tube, 301, {}, 7);
-  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
-    const std::vector<Vec3> rest(from.position.size());
-    const auto alone = add_velocity_by_teams<HostSpace>(precision, from, from.position, rest, {2, 1});
-    const auto together = add_velocity_by_teams<HostSpace>(precision, from, from.position, rest, {2, 2});
-    EXPECT_EQ(alone, together);
-  }
-}
-
 TEST(StokesletTeams, AgreesWithTheReferenceForAnyNumberOfRuns) {
   const reference::PointForces from = make_sources(Cloud::tube, 1301, {}, 7);
   const auto exact = reference::compute_stokeslet_velocity(from, from.position, test_viscosity);

@@ -3,8 +3,9 @@
 
 #include "tests/unit/stokeslet_case.hpp"
 
+#include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <vector>
 
 // Prints a hash of every sum's bits, for compare_thread_counts.cmake to compare between numbers of threads. The first
 // line says how many threads there were.
@@ -21,13 +22,19 @@ std::uint64_t hash_of(const void* bytes, const std::size_t n_bytes) {
 }
 
 void print_hashes() {
-  std::printf("threads %d\n", HostSpace().concurrency());
-  for (const int n_nodes : {300, 1440, 7000}) {
+  const int n_threads = HostSpace().concurrency();
+  std::printf("threads %d\n", n_threads);
+  for (const int n_nodes : {301, 1440, 7000}) {
     const reference::PointForces nodes = make_equal_sources(reference::Cloud::tube, n_nodes, {1.0, -3.0, 0.2}, 17);
+    const std::vector<Vec3> rest(nodes.position.size());
     for (const Sum sum : {Sum::general, Sum::symmetric, Sum::teams})
       for (const Precision precision : {Precision::in_double, Precision::in_single}) {
         if (n_nodes > 2000 && sum != Sum::symmetric) continue;  // only there does a large sum take another path
-        const auto velocity = compute_velocity(sum, precision, nodes, nodes.position);
+        // Barriers and ranks of a team matter only where it has several threads.
+        const int team_size = std::min(n_threads, 2);
+        const auto velocity =
+            sum == Sum::teams ? add_velocity_by_teams<ExecSpace>(precision, nodes, nodes.position, rest, {3, team_size})
+                              : compute_velocity(sum, precision, nodes, nodes.position);
         std::printf("%s %s %d %016llx\n", name_of(sum).c_str(), precision == Precision::in_double ? "double" : "single",
                     n_nodes, static_cast<unsigned long long>(hash_of(velocity.data(), velocity.size() * sizeof(Vec3))));
       }
