@@ -133,42 +133,66 @@ class Planner {
     candidate.error = predict(candidate.nodes_per_section, candidate.compared_with, difference);
     if (!std::isfinite(plan_.candidates[above].error))
       plan_.candidates[above].error = find_ladder_error(candidate.compared_with) * rest() + plan_.time_error;
-    if (!(candidate.error <= request_.tolerance)) compare_with_reference(candidate, lower.pilot, above + 1, difference);
-    if (candidate.error <= request_.tolerance) return true;
+    if (is_beyond_doubt(candidate, difference)) return true;
+    const bool is_compared = compare_with_reference(candidate, lower.pilot, above + 1, difference);
+    if (is_compared && candidate.error <= request_.tolerance) return true;
     Question worst = Question::shape;
     find_largest_error(candidate.found, &worst);
-    candidate.verdict = fmt::format("{} fails", name_of(worst));
+    candidate.verdict = candidate.error <= request_.tolerance ? "no finer rung had the time to show it"
+                                                              : fmt::format("{} fails", name_of(worst));
     return false;
   }
 
-  /// Measures a rung against the lowest one above it whose own error, by the table, leaves room for the difference that
-  /// was found, or else against the finest, which runs for a share of the time that pilots may take.
-  /// @param difference  of the candidate from its neighbour
-  void compare_with_reference(Candidate& candidate, const Pilot& run, const std::size_t above,
-                              const double difference) {
-    const auto& all = plan_.candidates;
-    const auto leaves_room = [&](const Candidate& rung) {
-      return !rung.is_barred &&
-             (difference + find_ladder_error(rung.nodes_per_section)) * rest() + plan_.time_error <= request_.tolerance;
-    };
-    const auto rung = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(above), all.end(), leaves_room);
-    if (rung == all.end()) return;
-    use_reference(static_cast<std::size_t>(rung - all.begin()));
-    if (reference_) measure(candidate, run);
+  /// True where a difference from a neighbour is enough: what both have in common is more than in the table in some
+  /// scenes, 2.7 times as much in a U-turn.
+  bool is_beyond_doubt(const Candidate& candidate, const double difference) const {
+    if (!(candidate.error <= request_.tolerance)) return false;
+    constexpr double most_of_table = 3.0;
+    const double common = most_of_table * find_ladder_error(candidate.compared_with);
+    return candidate.nodes_per_section == rigid_rung ||
+           (difference + common) * rest() + plan_.time_error <= request_.tolerance;
   }
 
-  void use_reference(const std::size_t index) {
-    if (index <= reference_index_) return;  // what was found, or not, is good enough
-    reference_index_ = index;
+  /// True where a tube has little in common with this one: twice its nodes, or all that there are.
+  bool is_far_above(const int rung, const int nodes_per_section) const {
+    return rung >= 2 * nodes_per_section || rung == plan_.candidates.back().nodes_per_section;
+  }
+
+  /// Measures a rung against the lowest one far above it whose own error, by the table, leaves room for the difference
+  /// that was found, or else against the finest, which runs for a share of the time that pilots may take.
+  /// @param difference  of the candidate from its neighbour
+  /// @returns false where none could be run
+  bool compare_with_reference(Candidate& candidate, const Pilot& run, const std::size_t above,
+                              const double difference) {
+    const auto& all = plan_.candidates;
+    const auto will_do = [&](const Candidate& rung) {
+      return !rung.is_barred && is_far_above(rung.nodes_per_section, candidate.nodes_per_section) &&
+             (difference + find_ladder_error(rung.nodes_per_section)) * rest() + plan_.time_error <= request_.tolerance;
+    };
+    const auto rung = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(above), all.end(), will_do);
+    if (rung == all.end() || !use_reference(static_cast<std::size_t>(rung - all.begin()))) return false;
+    measure(candidate, run);
+    return true;
+  }
+
+  /// @returns false where this one takes too long, or breaks off
+  bool use_reference(const std::size_t index) {
+    if (reference_ && index <= reference_index_) return true;
+    if (index >= too_dear_) return false;
     constexpr double share_of_pilots = 0.25;
     const double seconds = share_of_pilots * request_.max_seconds;
     const Candidate& rung = plan_.candidates[index];
-    reference_ = pilots_.run(
+    auto pilot = pilots_.run(
         rung.scene, fmt::format("{}, for {:.3g} s at most", describe_rung(rung.nodes_per_section), seconds), seconds);
     // Differences grow faster than time where fibers flip or meet: less than half of it says too little of the rest.
     constexpr double least_share = 0.5;
-    if (reference_ && (!reference_->failure.empty() || reference_->end() < least_share * scene_.time.end))
-      reference_.reset();
+    if (!pilot || !pilot->failure.empty() || pilot->end() < least_share * scene_.time.end) {
+      too_dear_ = index;
+      return false;
+    }
+    reference_ = std::move(pilot);
+    reference_index_ = index;
+    return true;
   }
 
   void measure(Candidate& candidate, const Pilot& run) {
@@ -188,6 +212,7 @@ class Planner {
     if (first <= chain_rung + 1 || first > last || !reference_) return;
     if (pilots_.compare(better, *reference_) > request_.tolerance) return;
     for (int rung = first; rung <= last; ++rung) {
+      if (!is_far_above(plan_.candidates[reference_index_].nodes_per_section, rung)) return;
       Candidate between = make_candidate(scene_, rung);
       if (between.is_barred) continue;
       between.scene.time.tolerance = plan_.time_tolerance;
@@ -216,9 +241,10 @@ class Planner {
   SceneConfig scene_;
   const PlanRequest& request_;
   PlanPilots pilots_;
-  std::optional<Pilot> chosen_;     ///< of the chosen candidate
-  std::optional<Pilot> reference_;  ///< what others were measured against, as far as it got; none where that is nothing
-  std::size_t reference_index_ = 0;  ///< of the candidates; 0: none was asked for
+  std::optional<Pilot> chosen_;      ///< of the chosen candidate
+  std::optional<Pilot> reference_;   ///< what others were measured against, as far as it got
+  std::size_t reference_index_ = 0;  ///< of the candidates
+  std::size_t too_dear_ = std::numeric_limits<std::size_t>::max();  ///< the lowest candidate that no reference could be
   Plan plan_;
 };
 
