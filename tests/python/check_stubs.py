@@ -42,4 +42,4 @@ faults += [f"{name} is not in __init__.pyi" for name in skein.__all__ if
            name not in pathlib.Path(skein.__file__).with_name("__init__.pyi").read_text()]
 faults += [f"{name} has no docstring" for name in skein.__all__ if callable(getattr(skein, name)) and
            not inspect.getdoc(getattr(skein, name))]
-sys.exit("\n".join(faults))
+sys.exit("\n".join(faults) or 0)

@@ -1,5 +1,7 @@
 // A scene that is written is read back to the same bits, and keys that are missing are what they are by default.
 
+#include <skein/scene/scene_reference.hpp>
+
 #include "tests/unit/scene_text.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +46,7 @@ SceneConfig make_unusual_scene() {
       1e-3 / 3.0,          Orientation::random};
   scene.repulsion = {7.0 / 3.0, 1e-3 / 7.0};
   scene.hydrodynamics.precision = Precision::in_single;
-  scene.time = {TimeMethod::euler, 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0};
+  scene.time = {TimeMethod::euler, 17.0 / 3.0, 1e-4 / 3.0, 1e-7 / 3.0, 0.1 / 3.0, 0.0, {}};
   scene.output = {1.0 / 30.0, Precision::in_single};
   return scene;
 }
