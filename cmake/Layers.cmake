@@ -26,13 +26,14 @@ function(skein_compile_on_host)
   endif()
 endfunction()
 
-# With nvcc, most of whose time goes into reading Kokkos, a layer without device code of its own is one translation unit.
-function(skein_unite_for_device name)
+# skein_unite_for_device(<target> [sources that stay by themselves...]): with nvcc, most of whose time goes into reading Kokkos,
+# what holds no device code of its own is one translation unit.
+function(skein_unite_for_device target)
   if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper" OR SKEIN_UNITE_LAYERS)
-    set_target_properties(skein_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-    get_target_property(sources skein_${name} SOURCES)
-    list(REMOVE_ITEM sources ${arg_FILES})
-    set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    if(ARGN)
+      set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
   endif()
 endfunction()
 
@@ -64,13 +65,14 @@ function(skein_set_up_layer target name)
   endforeach()
 endfunction()
 
-# skein_add_layer(<name> [UNITE] [FILES sources...] [KERNEL_FILES pair loops...] [HOST_FILES sources that do not see Kokkos...]
+# skein_add_layer(<name> [UNITE] [FILES sources...] [KERNEL_FILES pair loops...] [HOST_LOOPS pair loops of hosts alone...]
+#                 [HOST_FILES sources that do not see Kokkos...]
 #                 [LIBRARIES third-party targets that users must link, too...]
 #                 [PUBLIC_LIBRARIES ... whose headers they include, too...] [HEADERS header-only targets of its sources...])
 # Every layer links fmt, with which errors are written. In a HOST layer no source sees Kokkos; tests/house holds HOST and
 # HOST_FILES to what is included.
 function(skein_add_layer name)
-  cmake_parse_arguments(arg "UNITE" "" "FILES;KERNEL_FILES;HOST_FILES;LIBRARIES;PUBLIC_LIBRARIES;HEADERS" ${ARGN})
+  cmake_parse_arguments(arg "UNITE" "" "FILES;KERNEL_FILES;HOST_LOOPS;HOST_FILES;LIBRARIES;PUBLIC_LIBRARIES;HEADERS" ${ARGN})
   add_library(skein_${name} STATIC ${arg_FILES} ${arg_HOST_FILES})
   add_library(skein::${name} ALIAS skein_${name})
   set_target_properties(skein_${name} PROPERTIES EXPORT_NAME ${name})
@@ -82,8 +84,9 @@ function(skein_add_layer name)
   else()
     skein_compile_on_host(${arg_HOST_FILES})
     skein_note_sources(device ${arg_KERNEL_FILES})
+    skein_note_sources(united-${name}_loops ${arg_HOST_LOOPS})
     if(arg_UNITE)
-      skein_unite_for_device(${name})
+      skein_unite_for_device(skein_${name} ${arg_HOST_FILES})
       skein_note_sources(united-${name} ${arg_FILES})
     else()
       skein_note_sources(device ${arg_FILES})
@@ -97,7 +100,8 @@ function(skein_add_layer name)
     skein_precompile(skein_${name} skein_kokkos_headers)
   endif()
   if(arg_KERNEL_FILES)
-    add_library(skein_${name}_loops OBJECT ${arg_KERNEL_FILES})
+    add_library(skein_${name}_loops OBJECT ${arg_KERNEL_FILES} ${arg_HOST_LOOPS})
+    skein_unite_for_device(skein_${name}_loops ${arg_KERNEL_FILES})
     skein_set_up_layer(skein_${name}_loops ${name})
     target_link_libraries(skein_${name}_loops PRIVATE skein_loop_options)
     target_include_directories(skein_${name}_loops PRIVATE $<TARGET_PROPERTY:skein_${name},INCLUDE_DIRECTORIES>)

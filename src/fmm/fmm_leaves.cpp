@@ -10,9 +10,7 @@ namespace {
 
 using simd::Pack;
 
-constexpr int tile = 128;  // sources in the first cache at once
-
-const Box& box_of(const Octree& tree, const int b) { return tree.boxes()[static_cast<std::size_t>(b)]; }
+constexpr int near_tile = 128;  // sources in the first cache at once
 
 /// Targets of a task in a box's units or in units of length, from the box's centre.
 template <class Real>
@@ -45,7 +43,7 @@ void add_lanes(const Pack<Real> (&u)[3], const int first, const double scale, Le
 
 template <class Real>
 struct NearTile {
-  alignas(simd::bytes) Real y[3][tile], force[3][tile], blob_squared[tile];
+  alignas(simd::bytes) Real y[3][near_tile], force[3][near_tile], blob_squared[near_tile];
   int n = 0;
 
   void load(const SortedNodes& nodes, const int first, const int count, const Vec3 center) {
@@ -88,8 +86,8 @@ void add_near_field(const SortedNodes& nodes, const IndexRange* runs, const Inde
   constexpr int width = simd::width<Real>;
   NearTile<Real> sources;
   for (; runs != last_run; ++runs)
-    for (int s = 0; s < runs->count; s += tile) {
-      sources.load(nodes, runs->first + s, math::smaller(tile, runs->count - s), center);
+    for (int s = 0; s < runs->count; s += near_tile) {
+      sources.load(nodes, runs->first + s, math::smaller(near_tile, runs->count - s), center);
       int first = 0;
       for (; first + 2 * width <= targets.n_padded(); first += 2 * width)
         add_near_tile<2>(targets, first, sources, sum);
@@ -134,7 +132,7 @@ void add_surface_velocity(const Field& field, const OperatorSet<Real>& operators
 std::vector<TargetTask> make_target_tasks(const Octree& tree) {
   std::vector<TargetTask> tasks;
   for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
-    const IndexRange targets = box_of(tree, tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets;
+    const IndexRange targets = tree.box(tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets;
     for (int i = 0; i < targets.count; i += task_targets)
       tasks.push_back({leaf, {targets.first + i, math::smaller(task_targets, targets.count - i)}});
   }
@@ -148,7 +146,7 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
   const auto add = [&](const int t) {
     const TargetTask task = tasks[static_cast<std::size_t>(t)];
     const int b = tree.target_leaves()[static_cast<std::size_t>(task.leaf)];
-    const Box& box = box_of(tree, b);
+    const Box& box = tree.box(b);
     const Vec3 center = tree.center(box);
     LeafSum sum = {};
     if (near.velocity.extent(0) > 0)
@@ -176,7 +174,7 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
                              coefficients.stride, outer_surface, half_width, targets, density.get(), sum);
       }
       for (const int* w = tree.w_list().begin(task.leaf); w != tree.w_list().end(task.leaf); ++w) {
-        const Box& fine = box_of(tree, *w);
+        const Box& fine = tree.box(*w);
         const auto& fine_operators = *levels[static_cast<std::size_t>(fine.level)];
         const double half_width = tree.half_width(fine.level);
         targets.load(nodes.target, task.targets, tree.center(fine), half_width);

@@ -12,8 +12,6 @@ using Tasks = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>;
 
 constexpr int tile = 128;  // sources whose units are changed at once
 
-const Box& box_of(const Octree& tree, const int b) { return tree.boxes()[static_cast<std::size_t>(b)]; }
-
 template <class Real>
 const OperatorSet<Real>& operators_of(const std::vector<const OperatorSet<Real>*>& levels, const int level) {
   return *levels[static_cast<std::size_t>(level)];
@@ -73,7 +71,7 @@ void run_p2m(const Octree& tree, const SortedNodes& nodes, const Field& field,
              const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
              const IndexRange boxes) {
   for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
-    const Box& box = box_of(tree, b);
+    const Box& box = tree.box(b);
     Real* const own = coefficients.source.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
     std::fill(own, own + coefficients.box_size, Real(0));
     if (!box.is_leaf() || box.sources.count == 0) continue;
@@ -180,7 +178,7 @@ struct Branches {
     while (true) {
       IndexRange below;
       for (int b = runs.back().first; b < runs.back().first + runs.back().count; ++b) {
-        const Box& box = box_of(tree, b);
+        const Box& box = tree.box(b);
         if (box.is_leaf()) continue;
         if (below.count == 0) below.first = box.first_child;
         below.count += box.n_children;
@@ -203,10 +201,10 @@ void run_m2m(const Octree& tree, const std::vector<const OperatorSet<Real>*>& le
   const auto& below = operators_of(levels, level + 1);
   PairBatch<Real, Field> batch(below.rank_padded, own.rank_padded);
   for (int p = parents.first; p < parents.first + parents.count; ++p) {
-    const Box& parent = box_of(tree, p);
+    const Box& parent = tree.box(p);
     for (int i = 0; i < parent.n_children; ++i) {
       const int child = parent.first_child + i;
-      const Box& box = box_of(tree, child);
+      const Box& box = tree.box(child);
       if (box.sources.count == 0) continue;
       // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
       Real shift[3];
@@ -276,7 +274,7 @@ void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& 
   const std::vector<IndexRange> tasks = make_transfer_tasks(tree);
   const auto across = [&](const int t) {
     const IndexRange boxes = tasks[static_cast<std::size_t>(t)];
-    const int level = box_of(tree, boxes.first).level;
+    const int level = tree.box(boxes.first).level;
     const auto& operators = operators_of(levels, level);
     Real* const all = coefficients.target.data();
     const std::ptrdiff_t size = coefficients.box_size;
@@ -314,8 +312,8 @@ void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& 
       const HostScratch<Real> potential(n_values), sum(static_cast<int>(size));
       std::fill(potential.get(), potential.get() + n_values, Real(0));
       for (const int* a = tree.x_list().begin(b); a != tree.x_list().end(b); ++a)
-        add_run_potentials(nodes, box_of(tree, *a).sources, tree.center(box_of(tree, b)), half_width,
-                           field.at(half_width), operators, inner_surface, potential.get());
+        add_run_potentials(nodes, tree.box(*a).sources, tree.center(tree.box(b)), half_width, field.at(half_width),
+                           operators, inner_surface, potential.get());
       operators.to_target.apply(potential.get(), operators.to_target.n_columns, Field::n_columns, sum.get(),
                                 coefficients.stride);
       scatter<Field>(sum.get(), coefficients.stride, operators.rank_padded, &operators.sign(0, 0), all + b * size,
@@ -333,7 +331,7 @@ void run_l2l(const Octree& tree, const std::vector<const OperatorSet<Real>*>& le
   const auto& above = operators_of(levels, level - 1);
   PairBatch<Real, Field> batch(above.rank_padded, own.rank_padded);
   for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
-    const Box& box = box_of(tree, b);
+    const Box& box = tree.box(b);
     if (box.targets.count == 0) continue;
     Real shift[3];
     for (int c = 0; c < 3; ++c) shift[c] = Real(-child_side(box.octant, c));

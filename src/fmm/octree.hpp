@@ -39,6 +39,7 @@ class Octree {
   bool still_fits(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target) const;
 
   const std::vector<Box>& boxes() const { return boxes_; }
+  const Box& box(const int b) const { return boxes_[static_cast<std::size_t>(b)]; }
   int n_levels() const { return static_cast<int>(level_first_.size()) - 1; }
   IndexRange level(const int l) const {
     const auto i = static_cast<std::size_t>(l);

@@ -6,6 +6,7 @@ import json
 import os
 import signal
 import threading
+import time
 import tomllib
 
 import h5py
@@ -84,6 +85,7 @@ class Runs(InFreshFolder):
         def interrupt(frame):
             if frame.time > 0.05:
                 os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(0.2)  # until a thread has taken it
 
         with self.assertRaises(KeyboardInterrupt):
             self.run_both(interrupt)

@@ -8,7 +8,7 @@ import kymograph
 import power
 import shapes
 from script import Nothing, say
-from skein_package import DamagedData
+from skein_package import DamagedData, Error
 
 PICTURES = {"shapes": shapes, "angle": angle, "curvature": kymograph, "energy": energy, "extrema": extrema,
             "power": power, "defects": defects}
@@ -22,6 +22,8 @@ def draw_pictures(run, options):
         except Nothing as reason:
             say(f"{name} is not drawn: {reason}")
             continue
+        except Error:
+            raise
         except OSError as error:
             raise DamagedData(f"{run.path} cannot be read: {error}") from None
         for note in options.notes:

@@ -18,9 +18,9 @@ import numpy as np
 
 import style
 from output_file import replacing
-from run_reader import Run
 from script import attempt
 from shapes import add_tubes
+from skein_package import Run
 
 LABEL, GAP, TOP = 0.55, 0.08, 0.2  # inches: for a time, between panels, for the runs' names
 

@@ -17,7 +17,7 @@ import numpy as np
 import style
 from script import attempt, print_path
 from shapes import add_tubes
-from skein_package import DamagedData, Run, UsageError
+from skein_package import DamagedData, Error, Run, UsageError
 from style import plt
 
 
@@ -85,6 +85,8 @@ def draw_file(folder, image, picture):
     run = Run(folder)
     try:
         content = read_image(image)
+    except Error:
+        raise
     except (OSError, ValueError, AttributeError) as error:
         raise DamagedData(f"{image} cannot be read: {error}") from None
     name, extension = os.path.splitext(os.path.basename(picture))

@@ -12,8 +12,8 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which Python's
 import isolation  # noqa: F401, first
 
 import style
-from run_reader import CANNOT_CREATE, PlotError
 from script import attempt, print_path, say
+from skein_package import CannotCreate
 from sweep_curves import draw_curves
 from sweep_map import draw_map
 from sweep_table import SweepTable
@@ -51,7 +51,7 @@ def main():
         try:
             os.makedirs(folder, exist_ok=True)
         except OSError as error:
-            raise PlotError(CANNOT_CREATE, f"cannot create {folder}: {error.strerror}") from None
+            raise CannotCreate(f"cannot create {folder}: {error.strerror}") from None
         for picture in options.picture:
             value, x, y, by = picture
             words = f"{value} over {x}" + (f" and {y}" if y else f" by {by}" if by else "")

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 
 from diagnostics import REGIMES
-from run_reader import DAMAGED, MISSING, PlotError
+from skein_package import DamagedData, MissingInput
 
 WORDS = {"regime": REGIMES, "wave": ["standing", "travelling", "unclear"]}  # what codes stand for
 WIDE = 20.0  # a ratio of values that a logarithmic axis shows better
@@ -49,11 +49,11 @@ class SweepTable:
             with open(path, newline="", encoding="utf-8") as file:
                 rows = list(csv.reader(file))
         except OSError as error:
-            raise PlotError(MISSING, f"{path} cannot be read: {error.strerror}") from None
+            raise MissingInput(f"{path} cannot be read: {error.strerror}") from None
         except (csv.Error, UnicodeDecodeError) as error:
-            raise PlotError(DAMAGED, f"{path} is no table: {error}") from None
+            raise DamagedData(f"{path} is no table: {error}") from None
         if not rows or any(len(row) != len(rows[0]) for row in rows):
-            raise PlotError(DAMAGED, f"{path} is no table: its lines have different numbers of cells")
+            raise DamagedData(f"{path} is no table: its lines have different numbers of cells")
         self.path = path
         self.cells = {heading.partition(" [")[0]: (heading, [row[i] for row in rows[1:]])
                       for i, heading in enumerate(rows[0])}
@@ -63,5 +63,5 @@ class SweepTable:
 
     def column(self, name):
         if name not in self.cells:
-            raise PlotError(MISSING, f"{self.path} has no column {name}")
+            raise MissingInput(f"{self.path} has no column {name}")
         return Column(*self.cells[name])

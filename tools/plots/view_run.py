@@ -16,7 +16,7 @@ try:
     from output_file import write_error, write_whole
     from page import make_page
     from script import Nothing, attempt, print_path, say
-    from skein_package import DamagedData, MissingInput, Run
+    from skein_package import DamagedData, Error, MissingInput, Run
     from viewer_data import read_view
     from viewer_flow import read_flow
 except ImportError as missing:
@@ -39,6 +39,8 @@ def write_page(options):
         view = read_view(run)
     except Nothing as reason:
         raise MissingInput(f"{options.folder} cannot be shown: {reason}") from None
+    except Error:
+        raise
     except OSError as error:
         raise DamagedData(f"{run.path} cannot be read: {error}") from None
     if options.flow:
