@@ -1,5 +1,8 @@
 #pragma once
 
+#include <skein/core/math.hpp>
+#include <skein/core/simd.hpp>
+
 #include "kernels/regularized_stokeslet.hpp"
 
 // What teams of threads keep of sources in fast memory that they share, and how a thread sums over it.
@@ -26,9 +29,9 @@ struct HeldTargets {
   Real velocity[n_held][3];
 
   /// velocity += that of sources, in their order.
-  /// @param low  what the sources' places miss, read with_low only
+  /// @param low_of  what the sources' places miss, read with_low only
   template <bool with_low>
-  KOKKOS_INLINE_FUNCTION void add(const SharedSource<Real>* source, const Quad<Real>* low_of, const int count) {
+  SKEIN_INLINE_FUNCTION void add(const SharedSource<Real>* source, const Quad<Real>* low_of, const int count) {
     for (int s = 0; s < count; ++s) {
       const Quad<Real> y = source[s].place, f = source[s].force;
       [[maybe_unused]] Quad<Real> y_low{};
