@@ -146,7 +146,8 @@ void FmmEvaluator::count_work() {
 double FmmEvaluator::node_bytes() const {
   const bool same = sorted_.target.data() == sorted_.position.data();
   return 8.0 * static_cast<double>(sorted_.position.size() + sorted_.force.size() + sorted_.blob.size() +
-                                   (same ? 0 : sorted_.target.size()));
+                                   (same ? 0 : sorted_.target.size()) + near_velocity_.size()) +
+         near_tiles_.bytes() + single_near_tiles_.bytes();
 }
 
 bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
