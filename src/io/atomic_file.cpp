@@ -1,6 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/core/milestone.hpp>
 #include <skein/io/atomic_file.hpp>
+#include <skein/io/start_file.hpp>
 
 #include "open_file.hpp"
 
@@ -34,12 +35,14 @@ void sync_folder(const std::filesystem::path& folder, const std::string& what) {
     throw_io_error(what + ": its folder cannot be synced", error_number);
 }
 
-// For tests: "checkpoint.half", "segment.before_rename", "trajectory.h5.after_rename", ...
+// For tests: "checkpoint.half", "segment.before_rename", "start.half", "trajectory.h5.after_rename", ...
 void reach_point(const std::filesystem::path& path, const char* point) {
   const std::string folder = path.parent_path().filename().string();
+  const std::string name = path.filename().string();
   const std::string kind = folder == "checkpoints" ? "checkpoint"
                            : folder == "segments"  ? "segment"
-                                                   : path.filename().string();
+                           : is_start_file(name)   ? "start"
+                                                   : name;
   pass_milestone(kind + "." + point);
 }
 

@@ -127,7 +127,7 @@ void RunChecker::check_start() {
   if (start.checksum.empty()) return;
   check_.parent = fmt::format("'{}' at t = {}, step {}, certificate {}", start.parent, scene_.time.start, start.step,
                               start.certificate);
-  try_to([this] { read_start(folder_.start(), scene_); });
+  try_to([this] { read_start(folder_.path(), scene_); });
 }
 
 // Where the index does not list them: those that follow each other from the first on.

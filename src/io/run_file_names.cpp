@@ -1,6 +1,6 @@
 #include "run_file_names.hpp"
 
-#include <skein/io/run_folder.hpp>
+#include <skein/io/start_file.hpp>
 
 #include <array>
 #include <cctype>
@@ -26,8 +26,6 @@ bool is_file_of_a_run(const std::string& name) {
     if (without_partial(name) == known) return true;
   return false;
 }
-
-bool is_start_file(const std::string& name) { return without_partial(name) == RunFolder::start_name; }
 
 bool is_numbered_file(const std::string& name) {
   std::string_view stem = without_partial(name);

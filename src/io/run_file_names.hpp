@@ -7,9 +7,6 @@ namespace skein {
 /// Whether a run writes a file of this name into its folder, also half-written as "<name>.partial".
 bool is_file_of_a_run(const std::string& name);
 
-/// Whether it is the state of another run that a run begins with, also half-written.
-bool is_start_file(const std::string& name);
-
 /// Whether it is the name of a segment or a checkpoint: digits and ".h5" or ".checkpoint", also of what became of one,
 /// "<name>.partial" and "<name>.damaged".
 bool is_numbered_file(const std::string& name);

@@ -4,6 +4,7 @@
 #include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
+#include <skein/io/start_file.hpp>
 
 #include "run_file_names.hpp"
 
@@ -143,9 +144,10 @@ RunFolder RunFolder::create(const fs::path& path, const std::string& scene, cons
       throw Error(ExitCode::cannot_create, fmt::format("another run has just begun in '{}'.", name));
     if (use) use(folder);
     auto earlier = content == Content::nothing ? std::vector<fs::path>{} : list_files_of_run(folder);
-    if (!start.empty()) {  // before the scene that names it
-      std::erase(earlier, folder.start());
-      write_file_atomically(folder.start(), start);
+    if (!start.empty()) {  // before the scene that names it, and beside the one that an earlier scene names
+      const fs::path file = find_start(path, checksum_of_start(start));
+      std::erase(earlier, file);
+      write_file_atomically(file, start);
     }
     // Once the new scene is there the rest is no run of it any more, whatever happens.
     write_file_atomically(folder.scene(), scene);

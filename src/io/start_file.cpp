@@ -15,6 +15,9 @@
 namespace skein {
 namespace {
 
+constexpr std::string_view name_prefix = "start-", name_suffix = ".checkpoint";
+constexpr std::size_t checksum_size = 16;
+
 std::vector<Vec3> take_positions(const Checkpoint& start, const SceneConfig& scene) {
   if (start.number("state.time") != scene.time.start)
     throw Error(ExitCode::damaged_data, fmt::format("it is of t = {}, and the scene's time.start is {}",
@@ -61,6 +64,20 @@ std::string checksum_of_start(const std::string_view bytes) {
   return checksum.text();
 }
 
+std::filesystem::path find_start(const std::filesystem::path& folder, const std::string_view checksum) {
+  return folder / std::string(name_prefix).append(checksum).append(name_suffix);
+}
+
+bool is_start_file(std::string_view name) {
+  constexpr std::string_view partial = ".partial";
+  if (name.ends_with(partial)) name.remove_suffix(partial.size());
+  if (name.size() != name_prefix.size() + checksum_size + name_suffix.size() || !name.starts_with(name_prefix) ||
+      !name.ends_with(name_suffix))
+    return false;
+  const std::string_view checksum = name.substr(name_prefix.size(), checksum_size);
+  return checksum.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 std::vector<Vec3> decode_start(const std::string& bytes, const std::filesystem::path& file, const SceneConfig& scene) {
   try {
     if (const std::string found = checksum_of_start(bytes); found != scene.start.checksum)
@@ -74,7 +91,8 @@ std::vector<Vec3> decode_start(const std::string& bytes, const std::filesystem::
   }
 }
 
-std::vector<Vec3> read_start(const std::filesystem::path& file, const SceneConfig& scene) {
+std::vector<Vec3> read_start(const std::filesystem::path& folder, const SceneConfig& scene) {
+  const std::filesystem::path file = find_start(folder, scene.start.checksum);
   return decode_start(read_file(file), file, scene);
 }
 

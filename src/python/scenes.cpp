@@ -1,5 +1,4 @@
 #include <skein/core/error.hpp>
-#include <skein/io/run_folder.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "python/bindings.hpp"
@@ -22,10 +21,9 @@ using Changes = std::vector<std::string>;
 NewRun read_text(const std::string& text, const std::string& name, const Changes& changes) {
   NewRun run{read_placed_scene_text(text, name, changes), "", ""};
   if (!run.placed.config.start.checksum.empty())
-    throw Error(ExitCode::usage,
-                fmt::format("{}: it begins with the state of another run, which is in {} beside the scene's "
-                            "file; give the name of that file",
-                            name, RunFolder::start_name));
+    throw Error(ExitCode::usage, fmt::format("{}: it begins with the state of another run, which lies beside the "
+                                             "scene's file; give the name of that file",
+                                             name));
   return run;
 }
 

@@ -3,7 +3,6 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/node_orbits.hpp>
 #include <skein/io/read_file.hpp>
-#include <skein/io/run_folder.hpp>
 #include <skein/io/start_file.hpp>
 
 #include "runs/parent_state.hpp"
@@ -69,7 +68,7 @@ void check_symmetry(const SceneConfig& config, std::vector<Vec3> position, const
 NewRun make_new_run(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
   NewRun run{read_placed_scene(scene, overrides), "", ""};
   if (run.placed.config.start.checksum.empty()) return run;
-  const std::filesystem::path start = scene.parent_path() / RunFolder::start_name;
+  const std::filesystem::path start = find_start(scene.parent_path(), run.placed.config.start.checksum);
   run.start = read_file(start);
   decode_start(run.start, start, run.placed.config);
   return run;
@@ -94,7 +93,8 @@ NewRun make_child_run(const std::string& parent_name, const std::filesystem::pat
   config.start = {checksum_of_start(run.start), parent.name, parent.certificate, parent.step};
   run.placed.text = write_readable_scene(config);
   // Whatever the checkpoint holds, the run can begin with it.
-  check_symmetry(config, decode_start(run.start, RunFolder::start_name, config), parent.name, file, changes);
+  const std::vector<Vec3> position = decode_start(run.start, find_start("", config.start.checksum), config);
+  check_symmetry(config, position, parent.name, file, changes);
   return run;
 }
 

@@ -11,7 +11,7 @@ namespace skein {
 /// A run that is not begun yet.
 struct NewRun {
   PlacedScene placed;
-  std::string start;          ///< bytes of start.checkpoint; empty where the fibers start as they are written
+  std::string start;          ///< bytes of the state of another run; empty where the fibers start as they are written
   std::string what_happened;  ///< see ParentState
   std::string parent{};       ///< folder of the earlier run; empty where the scene is not continued from one
 };

@@ -125,6 +125,16 @@ void check_frame_count(const SceneConfig& scene, const SceneReader& reader, std:
                          format_number(scene.output.frame_interval), n_frames, format_number(scene.time.end)));
 }
 
+// It is a part of a file's name.
+void check_start(const StartConfig& start, const SceneReader& reader, std::vector<Problem>& problems) {
+  const bool is_checksum =
+      start.checksum.size() == 16 && start.checksum.find_first_not_of("0123456789abcdef") == std::string::npos;
+  if (start.checksum.empty() || is_checksum) return;
+  reader.add(problems, "start.checksum",
+             fmt::format("start.checksum must be 16 hexadecimal digits, as 'skein run --from' writes them, not {}",
+                         format_text(start.checksum)));
+}
+
 }  // namespace
 
 void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
@@ -135,6 +145,7 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
     if (reader.is_sound(path)) check_flow(scene.flows[i], path, reader, problems);
   }
   if (reader.is_sound("placement")) check_placement(scene.placement, reader, problems);
+  if (reader.is_sound("start")) check_start(scene.start, reader, problems);
   check_forces(scene, reader, problems, warnings);
   check_node_count(scene, reader, problems);
   if (reader.is_sound("hydrodynamics")) check_hydrodynamics(scene.hydrodynamics, reader, problems);

@@ -140,7 +140,7 @@ void visit_start(KeyVisitor& visitor, StartConfig& start) {
   visitor.begin_table(
       {"start", false,
        "The state of another run that the run begins with. `skein run --from` writes these keys and puts "
-       "the positions of all nodes into start.checkpoint beside the scene; the time is time.start."});
+       "the positions of all nodes into start-CHECKSUM.checkpoint beside the scene; the time is time.start."});
   visitor.text({"checksum", "", {}, "xxh3 of that file; empty: the fibers start as they are written"}, start.checksum);
   visitor.text({"parent", "", {}, "folder of the other run, as it was named"}, start.parent);
   visitor.text({"certificate", "", {}, "of the other run, as `skein verify` prints it"}, start.certificate);

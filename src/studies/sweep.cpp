@@ -4,7 +4,7 @@
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
-#include <skein/io/run_folder.hpp>
+#include <skein/io/start_file.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "runs/memory_limit.hpp"
@@ -37,7 +37,7 @@ bool is_only_begun(const SweepFolder& folder) {
     if (path == folder.results() && fs::is_directory(fs::symlink_status(path)) && list_names(path).empty())
       has_results = true;
     else if (!is_file(path) || (path != folder.lock() && path != folder.base_scene() && !name.ends_with(".partial") &&
-                                name != RunFolder::start_name))
+                                !is_start_file(name)))
       return false;
   }
   return has_results;
@@ -62,7 +62,6 @@ void check_is_same(const SweepFolder& folder, const SweepTexts& texts) {
   };
   compare(folder.sweep(), texts.sweep, "of another file");
   compare(folder.base_scene(), texts.base_scene, "of another scene");
-  compare(folder.path / RunFolder::start_name, texts.start, "that begins with another state");
 }
 
 /// Of several that begin at once, as the tasks of a batch job may, one makes the folder and the others find it.
@@ -82,15 +81,15 @@ std::unique_ptr<RunLock> wait_for_lock(const fs::path& file) {
 void fill_folder(const SweepFolder& folder, const SweepTexts& texts) {
   const auto lock = wait_for_lock(folder.lock());
   if (holds_sweep(folder)) return check_is_same(folder, texts);
-  if (!texts.start.empty()) write_file_atomically(folder.path / RunFolder::start_name, texts.start);
+  if (!texts.start.empty()) write_file_atomically(find_start(folder.path, checksum_of_start(texts.start)), texts.start);
   write_file_atomically(folder.base_scene(), texts.base_scene);
   write_file_atomically(folder.sweep(), texts.sweep);  // with it the folder is a sweep's
 }
 
 void make_folder(const SweepFolder& folder, const fs::path& file, const SweepConfig& config) {
+  if (!holds_sweep(folder)) check_sweep_scenes(file, config);
   const SweepTexts texts = read_sweep_texts(file, config);
   if (holds_sweep(folder)) return check_is_same(folder, texts);
-  check_sweep_scenes(file, config);
   try {
     fs::create_directories(folder.results());
   } catch (const fs::filesystem_error& error) {

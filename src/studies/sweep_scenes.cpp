@@ -1,9 +1,7 @@
 #include "studies/sweep_scenes.hpp"
 
 #include <skein/core/error.hpp>
-#include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
-#include <skein/io/run_folder.hpp>
 
 #include "runs/child_run.hpp"
 
@@ -58,10 +56,7 @@ class ProblemCollector {
 }  // namespace
 
 SweepTexts read_sweep_texts(const std::filesystem::path& file, const SweepConfig& sweep) {
-  SweepTexts texts{read_file(file), read_file(sweep.scene), ""};
-  const std::filesystem::path start = sweep.scene.parent_path() / RunFolder::start_name;
-  if (is_there(start)) texts.start = read_file(start);
-  return texts;
+  return {read_file(file), read_file(sweep.scene), make_new_run(sweep.scene, make_sweep_overrides(sweep, 0)).start};
 }
 
 std::string describe_sweep_run(const SweepConfig& sweep, const std::size_t run) {

@@ -12,8 +12,9 @@ namespace skein {
 /// What a sweep is made of, word for word.
 struct SweepTexts {
   std::string sweep, base_scene;
-  std::string start;  ///< bytes of start.checkpoint where the base scene begins with another run's state
+  std::string start;  ///< bytes of the state of another run (io/start_file) that the base scene begins with; or empty
 };
+/// @throws SceneError if the first run's scene is not sound
 SweepTexts read_sweep_texts(const std::filesystem::path& file, const SweepConfig& sweep);
 
 /// "fiber.sections=57, fiber.roll=5.0"

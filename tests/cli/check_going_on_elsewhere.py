@@ -64,6 +64,12 @@ class GoingOnElsewhere(unittest.TestCase):
     def scene(self, folder):
         return tomllib.loads((folder / "scene.toml").read_text())
 
+    def start_of(self, folder):
+        """The one start that is there, under the name that its scene tells."""
+        (start,) = folder.glob("start*")
+        self.assertEqual(start.name, f"start-{self.scene(folder)['start']['checksum']}.checkpoint")
+        return start
+
     def test_with_the_last_state_exactly(self):
         self.run_parent()
         before = {path.name: path.read_bytes() for path in self.parent.rglob("*") if path.is_file()}
@@ -72,7 +78,7 @@ class GoingOnElsewhere(unittest.TestCase):
         times, positions = frames(self.child)
         self.assertEqual(times, [0.52, 6 * 0.1, 7 * 0.1, 0.8, 0.9, 0.97])
         self.assertEqual(positions[0].tobytes(), struct.pack(f"<{positions[0].size}d", *last["state.position"]))
-        start = run_files.read_checkpoint(self.child / "start.checkpoint")
+        start = run_files.read_checkpoint(self.start_of(self.child))
         self.assertEqual((start["state.position"], start["state.time"]), (last["state.position"], last["state.time"]))
         scene, parent_scene = self.scene(self.child), self.scene(self.parent)
         certificate = self.verify(self.parent)["certificate"]
@@ -108,7 +114,7 @@ class GoingOnElsewhere(unittest.TestCase):
 
     def test_a_kill_while_the_folder_is_made(self):
         self.run_parent()
-        for moment in ("start.checkpoint.half", "start.checkpoint.after_rename", "scene.toml.half",
+        for moment in ("start.half", "start.after_rename", "scene.toml.half",
                        "scene.toml.after_rename"):
             with self.subTest(moment=moment):
                 self.run_child(code=-signal.SIGKILL, SKEIN_TEST_KILL=f"{moment}:1")
@@ -118,6 +124,37 @@ class GoingOnElsewhere(unittest.TestCase):
                     self.run_child("--overwrite")
                 self.verify(self.child)
                 shutil.rmtree(self.child)
+
+    def test_an_earlier_child_survives_until_another_one_has_its_scene(self):
+        """Killed while it is replaced, the earlier run loses nothing; once the new scene is there, so is its start."""
+        self.run_parent()
+        self.run_child()
+        certificate, start = self.verify(self.child)["certificate"], self.start_of(self.child).read_bytes()
+        other = {"origin": f"{self.parent}@0.3", "overrides": ["time.end=0.6"]}
+        for moment in ("start.half", "start.before_rename", "start.after_rename", "scene.toml.half",
+                       "scene.toml.before_rename"):
+            with self.subTest(moment=moment):
+                broken = self.folder / "broken"
+                shutil.copytree(self.child, broken)
+                self.run_child("--overwrite", **other, folder=broken, code=-signal.SIGKILL,
+                               SKEIN_TEST_KILL=f"{moment}:1")
+                self.assertEqual(self.verify(broken)["certificate"], certificate)
+                for path in broken.glob("checkpoints/*"):  # so that it begins again with its start
+                    path.unlink()
+                result = self.program.resume(broken, "--from-start")
+                self.assertEqual(result.returncode, DONE, result.stderr)
+                self.assertEqual(self.verify(broken)["certificate"], certificate)
+                self.run_child("--overwrite", **other, folder=broken)
+                self.assertNotEqual(self.start_of(broken).read_bytes(), start)
+                shutil.rmtree(broken)
+        replaced = pathlib.Path(shutil.copytree(self.child, self.folder / "replaced"))
+        self.run_child("--overwrite", **other, folder=replaced, code=-signal.SIGKILL,
+                       SKEIN_TEST_KILL="scene.toml.after_rename:1")
+        again = self.folder / "again"
+        result = self.program.call([PROGRAM, "run", replaced / "scene.toml", "-o", again, "-q"])
+        self.assertEqual(result.returncode, DONE, result.stderr)
+        self.run_child(**other, folder=self.folder / "whole")
+        self.assertEqual(self.verify(again)["certificate"], self.verify(self.folder / "whole")["certificate"])
 
     def test_with_a_frame(self):
         self.run_parent()
@@ -188,11 +225,12 @@ class GoingOnElsewhere(unittest.TestCase):
     def test_goes_on_without_its_start_where_it_has_a_checkpoint(self):
         self.run_parent()
         self.run_child(code=-signal.SIGKILL, SKEIN_TEST_KILL="step:9")
-        (self.child / "start.checkpoint").unlink()
+        start = self.start_of(self.child)
+        start.unlink()
         self.assertEqual(self.program.resume(self.child).returncode, DONE)
         result = self.program.verify(self.child)
         self.assertEqual(result.returncode, program.DAMAGED, result.stdout)
-        self.assertIn("start.checkpoint", result.stderr)
+        self.assertIn(start.name, result.stderr)
 
     def test_dry_run_and_a_missing_scene(self):
         self.run_parent()
@@ -258,13 +296,13 @@ class GoingOnElsewhere(unittest.TestCase):
     def test_a_start_that_was_changed_is_found(self):
         self.run_parent()
         self.run_child()
-        start, checkpoints = self.child / "start.checkpoint", self.child / "checkpoints"
+        start, checkpoints = self.start_of(self.child), self.child / "checkpoints"
         content = start.read_bytes()
         for damaged in (content[:-1], content[:200] + bytes([content[200] ^ 1]) + content[201:], b""):
             start.write_bytes(damaged)
             result = self.program.verify(self.child)
             self.assertEqual(result.returncode, program.DAMAGED, result.stdout)
-            self.assertIn("start.checkpoint", result.stderr)
+            self.assertIn(start.name, result.stderr)
         shutil.rmtree(checkpoints)
         shutil.rmtree(self.child / "segments")
         (self.child / "segments").mkdir()

@@ -5,6 +5,7 @@
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_summary.hpp>
+#include <skein/io/start_file.hpp>
 #include <skein/io/trajectory_writer.hpp>
 
 #include "tests/unit/error_code.hpp"
@@ -129,7 +130,7 @@ TEST(RunFolder, TakesOverWhatARunLeftThatWasKilledBeforeItsScene) {
     EXPECT_EQ(names_in(run), (std::set<std::string>{"scene.toml", "segments"}));
     EXPECT_EQ(read_file(run / "scene.toml"), scene);
   }
-  for (const char* name : {"start.checkpoint", "start.checkpoint.partial"}) {
+  for (const char* name : {"start-0123456789abcdef.checkpoint", "start-0123456789abcdef.checkpoint.partial"}) {
     const fs::path run = scratch.path() / std::to_string(n++);
     fs::create_directories(run / "segments");
     write_file_atomically(run / name, checkpoint_magic.substr(0, 5));
@@ -160,7 +161,11 @@ TEST(RunFolder, TakesNothingElseForSuchRemains) {
   refuses("segments/000000.h5", "frames");
   refuses("scene.toml.partial", "somebody's own");
   refuses("scene.toml.partial", nullptr);
-  refuses("start.checkpoint", "somebody's own");
+  refuses("start-0123456789abcdef.checkpoint", "somebody's own");
+  const std::string magic(checkpoint_magic);
+  for (const char* name : {"start-.checkpoint", "start-0123456789abcdeF.checkpoint", "start-0123456789abcde.checkpoint",
+                           "start-checkpoint", "start-0123456789abcdef"})
+    refuses(name, magic.c_str());
   refuses("checkpoints", nullptr);
   // Nor a folder of segments that is elsewhere.
   const fs::path linked = scratch.path() / "linked";
@@ -174,10 +179,14 @@ TEST(RunFolder, HasTheStateThatItBeginsWith) {
   const ScratchFolder scratch;
   const fs::path run = scratch.path() / "run";
   const RunFolder folder = RunFolder::create(run, "scene", false, {}, "a state");
-  EXPECT_EQ(read_file(folder.start()), "a state");
-  EXPECT_TRUE(folder.is_part(folder.start()));
+  const fs::path start = find_start(run, checksum_of_start("a state"));
+  EXPECT_EQ(read_file(start), "a state");
+  EXPECT_TRUE(folder.is_part(start));
   RunFolder::create(run, "another", true, {}, "another state");
-  EXPECT_EQ(read_file(folder.start()), "another state");
+  EXPECT_EQ(read_file(find_start(run, checksum_of_start("another state"))), "another state");
+  EXPECT_FALSE(fs::exists(start));
+  RunFolder::create(run, "the same state", true, {}, "another state");
+  EXPECT_EQ(read_file(find_start(run, checksum_of_start("another state"))), "another state");
   RunFolder::create(run, "without", true);
   EXPECT_EQ(names_in(run), (std::set<std::string>{"scene.toml", "segments"}));
 }

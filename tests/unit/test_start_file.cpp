@@ -1,4 +1,4 @@
-// The state of another run in start.checkpoint: exact, and refused wherever it is not the scene's.
+// The state of another run in its file: exact, and refused wherever it is not the scene's.
 
 #include <skein/io/atomic_file.hpp>
 #include <skein/io/start_file.hpp>
@@ -24,21 +24,22 @@ class StartFile : public testing::Test {
     const std::string bytes = encode_start(position_, 0.1 + 0.2);
     scene_.time.start = 0.1 + 0.2;
     scene_.start.checksum = checksum_of_start(bytes);
-    write_file_atomically(file_, bytes);
+    write_file_atomically(file(), bytes);
   }
 
+  std::filesystem::path file() const { return find_start(scratch_.path(), scene_.start.checksum); }
+
   ExitCode read(std::string* message = nullptr) const {
-    return code_of([this] { read_start(file_, scene_); }, message);
+    return code_of([this] { read_start(scratch_.path(), scene_); }, message);
   }
 
   ScratchFolder scratch_;
-  std::filesystem::path file_ = scratch_.path() / "start.checkpoint";
   SceneConfig scene_;
   std::vector<double> position_;
 };
 
 TEST_F(StartFile, HoldsEveryBit) {
-  const auto found = read_start(file_, scene_);
+  const auto found = read_start(scratch_.path(), scene_);
   ASSERT_EQ(found.size(), 24u);
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].x, position_[3 * i]);
@@ -61,7 +62,7 @@ TEST_F(StartFile, OfOtherFibersIsRefused) {
 
 TEST_F(StartFile, AWholeFileOfAnotherStateIsRefused) {
   position_[5] = std::nextafter(position_[5], 1.0);
-  write_file_atomically(file_, encode_start(position_, scene_.time.start));
+  write_file_atomically(file(), encode_start(position_, scene_.time.start));
   std::string message;
   EXPECT_EQ(read(&message), ExitCode::damaged_data);
   EXPECT_NE(message.find(scene_.start.checksum), std::string::npos) << message;
@@ -71,15 +72,15 @@ TEST_F(StartFile, OfWhatIsNoNumberIsRefused) {
   position_[7] = std::nan("");
   const std::string bytes = encode_start(position_, scene_.time.start);
   scene_.start.checksum = checksum_of_start(bytes);
-  write_file_atomically(file_, bytes);
+  write_file_atomically(file(), bytes);
   EXPECT_EQ(read(), ExitCode::damaged_data);
 }
 
 TEST_F(StartFile, ThatIsGoneIsNamed) {
-  std::filesystem::remove(file_);
+  std::filesystem::remove(file());
   std::string message;
   EXPECT_EQ(read(&message), ExitCode::missing_input);
-  EXPECT_NE(message.find("start.checkpoint"), std::string::npos) << message;
+  EXPECT_NE(message.find(file().filename().string()), std::string::npos) << message;
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ class RunFolder {
   /// @param overwrite  clear what an earlier run left there, its tables and pictures included (and nothing else),
   ///                   instead of refusing
   /// @param use        called when the folder is there and before anything in it is written or removed: to lock it
-  /// @param start      bytes of start.checkpoint, which is there before the scene is; empty: there is none
+  /// @param start      bytes of the state of another run that the scene begins with (io/start_file), which are there
+  ///                   before the scene is; empty: there are none
   /// @throws Error(cannot_create) if the folder cannot be made, if it holds a run and overwrite is false, or if it
   /// holds
   ///         anything but a run; Error(io_error) if the disk is full or fails; what `use` throws.
@@ -33,11 +34,8 @@ class RunFolder {
   /// none, or no scene in it.
   static RunFolder open_begun(const std::filesystem::path& path);
 
-  static constexpr const char* start_name = "start.checkpoint";
-
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path scene() const { return path_ / "scene.toml"; }
-  std::filesystem::path start() const { return path_ / start_name; }
   std::filesystem::path index() const { return path_ / "trajectory.h5"; }
   std::filesystem::path xdmf() const { return path_ / "trajectory.xdmf"; }
   std::filesystem::path segments() const { return path_ / "segments"; }

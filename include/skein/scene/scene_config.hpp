@@ -168,7 +168,7 @@ struct TimeConfig {
 };
 
 /// Another run's state, with which a run begins in place of the fibers as written; its time is time.start. The
-/// positions are in the file start.checkpoint beside the scene.
+/// positions are in a file beside the scene (io/start_file).
 struct StartConfig {
   std::string checksum;     ///< of that file; empty: the run begins with the fibers as written
   std::string parent;       ///< the run's folder, as it was named
