@@ -152,6 +152,24 @@ class Whole(Sweep):
                 self.assertIn("open", {row["state"] for row in read_rows(self.folder / "stopped/table.csv")})
 
 
+    def test_a_base_scene_that_goes_on_from_another_run(self):
+        """The state lies in the sweep's folder, which needs neither the run nor the scene's folder any more."""
+        self.expect(DONE, "run", "base.toml", "-o", "parent", "-q")
+        self.expect(DONE, "run", "--from", "parent", "-o", "child", "-q", "--set", "time.end=0.5")
+        self.write('scene = "child/scene.toml"\n[[parameter]]\nkey = "flow.rate"\nvalues = [1.0, 2.0]\n', "on.toml")
+        for moment in ("start.half", "start.after_rename", "base.toml.half", "sweep.toml.half"):
+            killed = self.skein("sweep", "on.toml", "-o", "swept", environment={"SKEIN_TEST_KILL": f"{moment}:1"})
+            self.assertEqual(killed.returncode, -signal.SIGKILL, killed.stderr)
+        self.expect(DONE, "sweep", "on.toml", "-o", "swept", "--no-plots")
+        self.expect(DONE, "run", "child/scene.toml", "-o", "alone", "-q", "--set", "flow.rate=2.0")
+        for name in ("parent", "child"):
+            shutil.rmtree(self.folder / name)
+        self.expect(DONE, "sweep", "-o", "swept", "--no-plots")
+        certificates = [re.search("[0-9a-f]{16}", self.expect(DONE, "verify", run).stdout).group()
+                        for run in ("swept/runs/00001", "alone")]
+        self.assertEqual(certificates[0], certificates[1])
+
+
 class Failures(Sweep):
     def test_they_are_listed_with_message_and_code_and_kept_apart(self):
         self.write(SWEEP.split("[[parameter]]")[0] + """
