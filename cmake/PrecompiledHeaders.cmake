@@ -5,7 +5,7 @@ option(SKEIN_PRECOMPILED_HEADERS "Compile headers of other projects once (g++ an
 
 set(skein_precompiles FALSE)
 if(SKEIN_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper"
-   AND NOT Kokkos_DEVICES MATCHES "CUDA|HIP")
+   AND NOT skein_has_device)
   set(skein_precompiles TRUE)
 endif()
 

@@ -96,4 +96,6 @@ std::vector<Vec3> DeviceFmmEvaluator::sample(const EvenSample& sample) const {
   return read_sample<ExecSpace>(space_, own_velocity_, sample);
 }
 
+std::unique_ptr<FmmSum> make_device_fmm_sum() { return std::make_unique<DeviceFmmEvaluator>(); }
+
 }  // namespace skein

@@ -2,7 +2,7 @@
 
 #include <skein/core/error.hpp>
 
-#include "device_fmm_evaluator.hpp"
+#include "device_sum.hpp"
 #include "fmm_evaluator.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace skein {
 std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path) {
   const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
   if (is_on_host) return std::make_unique<FmmEvaluator>();
-  return std::make_unique<DeviceFmmEvaluator>();
+  return make_device_fmm_sum();
 }
 
 OctreeRules make_octree_rules(const FmmOptions& options, const FmmPlan& plan) {

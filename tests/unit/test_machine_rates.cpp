@@ -1,5 +1,7 @@
 // What is chosen for a device, against what was measured on one. No device is needed: choices are arithmetic.
+#include <skein/core/error.hpp>
 #include <skein/fmm/fmm_plan.hpp>
+#include <skein/fmm/fmm_sum.hpp>
 #include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/mobility_choice.hpp>
 
@@ -87,6 +89,13 @@ TEST(MachineRates, LeavesOfADeviceAreLarger) {
   EXPECT_EQ(choose_fmm_plan(options, 1e-4, 0).leaf_size, 128);
   options.leaf_size = 40;
   EXPECT_EQ(choose_fmm_plan(options, 1e-4, 0).leaf_size, 40);
+}
+
+TEST(DeviceSums, AreNotInAProgramForHostsThatDoesNotAskForThem) {
+  if (on_host<ExecSpace>)
+    EXPECT_THROW(make_fmm_sum(KernelPath::device), Error);
+  else
+    EXPECT_NE(make_fmm_sum(KernelPath::automatic), nullptr);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <skein/fmm/fmm_sum.hpp>
+
+#include <memory>
+
+namespace skein {
+
+/// The sum by plain kernels in the execution space.
+/// @throws Error(usage) in a program for hosts that does not link skein_fmm_device, as tests and benches do
+std::unique_ptr<FmmSum> make_device_fmm_sum();
+
+}  // namespace skein
