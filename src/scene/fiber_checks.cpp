@@ -16,6 +16,10 @@ namespace {
 /// A rigid fiber's resistance is two matrices, [n_nodes, n_nodes].
 constexpr int n_rigid_nodes_allowed = 2000;
 
+/// How many radii apart sections may be, and how many lie within one at most: further on a rounding error is as large
+/// as what bends a fiber.
+constexpr double most_apart = 1e4;
+
 /// What a rigid fiber cannot be asked for.
 void check_rigid(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems) {
@@ -53,6 +57,11 @@ void check_model(const FiberConfig& fiber, const std::string& path, const SceneR
                                             fiber.nodes_per_section));
   if (is_bare && fiber.spacing == 0.0)
     reject("spacing", "must be given: single nodes have no neighbours on a section to take it from");
+  if (fiber.spacing > 0.0 &&
+      !(fiber.spacing >= fiber.radius / most_apart && fiber.spacing <= fiber.radius * most_apart))
+    reject("spacing",
+           fmt::format("{}: sections that are {:.3g} radii apart make up no fiber; between {} and {} they do",
+                       format_number(fiber.spacing), fiber.spacing / fiber.radius, 1.0 / most_apart, most_apart));
   if (is_bare && fiber.reach_along != 1)
     reject("reach_along", fmt::format("{}: links of a chain join neighbours", fiber.reach_along));
   const auto keep_bare = [&](const char* key, const double value) {

@@ -191,6 +191,19 @@ TEST(Calibration, SectionsThatAreFreeGiveWay) {
   }
 }
 
+// Springs between close sections lie across the fiber, and rounding decides long before lengths vanish.
+TEST(Calibration, SectionsAsCloseAsAScenesMayBeBendByTheSameLaw) {
+  FiberConfig config = make_fiber(41).config;
+  config.spacing = 1e-2 * config.radius;
+  const BeamStiffness near = measure_beam_stiffness(make_fibers({config})[0]);
+  config.spacing = 1e-4 * config.radius;
+  const BeamStiffness nearest = measure_beam_stiffness(make_fibers({config})[0]);
+  EXPECT_NEAR(nearest.infinite_bending, near.infinite_bending, 1e-3 * near.infinite_bending);
+  EXPECT_NEAR(nearest.bending, near.bending, 1e-3 * near.bending);
+  EXPECT_NEAR(nearest.torsional / config.spacing, near.torsional / (1e-2 * config.radius),
+              1e-3 * near.torsional / (1e-2 * config.radius));
+}
+
 TEST(Calibration, RelaxedModuliFollowTheProfileAndRigidSections) {
   FiberConfig config = make_fiber(41).config;
   const BeamStiffness plain = measure_beam_stiffness(make_fiber(41));
