@@ -17,16 +17,22 @@ file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/skein_package.py CONTENT "${
 install(FILES ${CMAKE_BINARY_DIR}/generated/skein_package.py DESTINATION ${plots})
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
 
-# The program writes its own completion. Where it does not start, as one for another machine, there is none.
-set(completion_script ${CMAKE_CURRENT_BINARY_DIR}/completion_for_bash)
-install(CODE "execute_process(COMMAND \"$<TARGET_FILE:skein>\" completion bash OUTPUT_FILE \"${completion_script}\"
-  RESULT_VARIABLE failure)
+# The program writes its own completion and page of the manual. Where it does not start, as one for another machine, there
+# are none.
+# skein_install_printed(<file> <folder> <arguments>...)
+function(skein_install_printed file folder)
+  set(printed ${CMAKE_CURRENT_BINARY_DIR}/printed/${file})
+  list(JOIN ARGN " " arguments)
+  install(CODE "file(MAKE_DIRECTORY \"${CMAKE_CURRENT_BINARY_DIR}/printed\")
+execute_process(COMMAND \"$<TARGET_FILE:skein>\" ${arguments} OUTPUT_FILE \"${printed}\" RESULT_VARIABLE failure)
 if(failure)
-  message(WARNING \"skein does not run here: its completion for bash is not installed\")
-  file(REMOVE \"${completion_script}\")
+  message(WARNING \"skein does not run here: 'skein ${arguments}' is not installed\")
+  file(REMOVE \"${printed}\")
 endif()")
-install(FILES ${completion_script} RENAME skein OPTIONAL
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${printed} OPTIONAL DESTINATION ${folder})
+endfunction()
+skein_install_printed(skein ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)
+skein_install_printed(skein.1 ${CMAKE_INSTALL_MANDIR}/man1 help --man)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/skein)
 set(SKEIN_COMPONENTS "")

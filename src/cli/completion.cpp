@@ -103,8 +103,6 @@ std::vector<std::string> split_names(const std::string& names) {
   return parts;
 }
 
-bool is_option(const Argument& argument) { return argument.names.starts_with('-'); }
-
 /// What _skein_value prints: words, a kind that script_end knows, or %other for what cannot be known.
 std::string describe_value(const Argument& argument) {
   static const std::map<std::string, std::string> kinds = {
@@ -127,7 +125,7 @@ std::string write_function(const std::string& name, const std::string& subject, 
 std::string list_options(const Verb& verb) {
   std::vector<std::string> options;
   for (const Argument& argument : verb.arguments) {
-    if (!is_option(argument)) continue;
+    if (!argument.is_option()) continue;
     for (const std::string& name : split_names(argument.names)) options.push_back(name);
   }
   options.insert(options.end(), {"-h", "--help"});
@@ -141,7 +139,7 @@ std::string write_value_cases(const Verb& verb) {
   for (const Argument& argument : verb.arguments) {
     if (std::holds_alternative<bool*>(argument.target)) continue;
     std::vector<std::string> patterns;
-    if (is_option(argument))
+    if (argument.is_option())
       for (const std::string& name : split_names(argument.names)) patterns.push_back(verb.name + ":" + name);
     else
       patterns.push_back(fmt::format("{}:{}", verb.name, ++place));

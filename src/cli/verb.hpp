@@ -34,6 +34,8 @@ struct Argument {
   int count = 0;                                    ///< of the numbers in a list; 0: any
   std::string excluded;                             ///< the option that cannot stand beside it
 
+  bool is_option() const { return names.starts_with('-'); }
+
   Argument&& require() && {
     is_required = true;
     return std::move(*this);

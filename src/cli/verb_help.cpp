@@ -1,4 +1,6 @@
+#include "cli/man_page.hpp"
 #include "cli/parser.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 
 #include <memory>
@@ -21,12 +23,20 @@ int print_help(std::string name, const std::vector<Verb>& verbs) {
 
 Verb make_help_verb(const std::vector<Verb>& verbs) {
   const auto name = std::make_shared<std::string>();
+  const auto as_man_page = std::make_shared<bool>(false);
   return {"help",
           "Explain a verb",
-          {make_argument("verb", name.get(), "VERB", "The verb; without: list them")},
+          {make_argument("verb", name.get(), "VERB", "The verb; without: list them"),
+           make_flag("--man", as_man_page.get(), "Print the manual's page, of all verbs, in place of that")},
           "Examples:\n"
-          "  skein help run",
-          [name, &verbs] { return print_help(*name, verbs); }};
+          "  skein help run\n"
+          "  skein help --man > skein.1\n"
+          "An installed skein has the page: 'man skein'.",
+          [name, as_man_page, &verbs] {
+            if (!*as_man_page) return print_help(*name, verbs);
+            print_result(write_man_page(verbs));
+            return 0;
+          }};
 }
 
 }  // namespace skein

@@ -11,6 +11,7 @@ Verb make_resume_verb();
 Verb make_verify_verb();
 Verb make_validate_verb();
 Verb make_defaults_verb();
+Verb make_new_verb();
 Verb make_info_verb();
 Verb make_analyze_verb();
 Verb make_reproduce_verb();
