@@ -25,6 +25,9 @@ if(SKEIN_SANITIZE)
                                                           -fno-omit-frame-pointer)
   target_link_options(skein_compiler_options INTERFACE -fsanitize=address,undefined)
 endif()
+if(SKEIN_FUZZ)
+  target_compile_options(skein_compiler_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # What the pair loops need to vectorize and to fuse multiplications with additions. Never -ffast-math: split single
 # precision differences depend on the order in which they are written, and NaN must stay NaN.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, configures and builds one preset:
-#   tools/build.sh [openmp|serial|release|sanitize|memcheck|cuda|hip] [--target=NAME...] [options for cmake]
+#   tools/build.sh [openmp|serial|release|sanitize|memcheck|fuzz|cuda|hip] [--target=NAME...] [options for cmake]
 # Without a target everything is built, tests and benches too.
 # With SKEIN_SETUP_OPTIONS in the environment, tools/setup.sh is given those too.
 set -euo pipefail
@@ -15,12 +15,16 @@ case $preset in
   openmp | serial | cuda | hip) backend=$preset ;;
   release) backend=openmp ;;
   sanitize) backend=serial ;;
+  fuzz)
+    backend=serial
+    SKEIN_SETUP_OPTIONS="--with-fuzzing${SKEIN_SETUP_OPTIONS:+ $SKEIN_SETUP_OPTIONS}"
+    ;;
   memcheck)
     backend=serial
     export SKEIN_PROCESSOR=x86-64-v3 SKEIN_KOKKOS_PREFIX= # for a Kokkos of its own; valgrind knows nothing newer
     ;;
   *)
-    echo "build.sh: unknown preset '$preset'; known are openmp, serial, release, sanitize, memcheck, cuda and hip." >&2
+    echo "build.sh: unknown preset '$preset'; known are openmp, serial, release, sanitize, memcheck, fuzz, cuda and hip." >&2
     exit 1
     ;;
 esac

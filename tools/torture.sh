@@ -97,16 +97,13 @@ fuzz() {
     seed=$(find "$folder" -name '*.checkpoint' -not -path '*damaged*' | sort | tail -n 1)
     if [[ -n $seed ]]; then cp "$seed" "$corpus/seed"; fi
   fi
-  "$folder/fuzz/build/$name" -max_total_time="$fuzz_seconds" -timeout=10 -max_len=16384 -print_final_stats=1 \
+  "build/fuzz/bin/$name" -max_total_time="$fuzz_seconds" -timeout=10 -max_len=16384 -print_final_stats=1 \
     -artifact_prefix="$folder/fuzz/$name-" "$corpus" 2>&1 | tee -a "$log" |
     sed -nE 's/^stat::number_of_executed_units: *([0-9]+)/\1 inputs/p'
 }
 
 build_fuzzers() {
-  local kokkos
-  kokkos=$(tools/setup.sh --serial --with-fuzzing --print-kokkos)
-  cmake -S tests/fuzz -B "$folder/fuzz/build" -G Ninja -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_PREFIX_PATH="$kokkos"
-  cmake --build "$folder/fuzz/build"
+  SKEIN_SETUP_OPTIONS=--with-tests tools/build.sh fuzz --target=fuzz_scene --target=fuzz_checkpoint
 }
 
 run_sanitized_tests() { tools/test.sh --preset sanitize; }

@@ -1,7 +1,7 @@
 #include <skein/core/error.hpp>
 #include <skein/core/milestone.hpp>
 #include <skein/io/atomic_file.hpp>
-#include <skein/io/start_file.hpp>
+#include <skein/io/start_name.hpp>
 
 #include "open_file.hpp"
 
@@ -41,7 +41,7 @@ void reach_point(const std::filesystem::path& path, const char* point) {
   const std::string name = path.filename().string();
   const std::string kind = folder == "checkpoints" ? "checkpoint"
                            : folder == "segments"  ? "segment"
-                           : is_start_file(name)   ? "start"
+                           : is_start_name(name)   ? "start"
                                                    : name;
   pass_milestone(kind + "." + point);
 }

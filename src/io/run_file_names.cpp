@@ -1,6 +1,6 @@
 #include "run_file_names.hpp"
 
-#include <skein/io/start_file.hpp>
+#include <skein/io/start_name.hpp>
 
 #include <array>
 #include <cctype>
@@ -21,7 +21,7 @@ std::string_view without_partial(std::string_view name) {
 bool is_file_of_a_run(const std::string& name) {
   constexpr std::array<std::string_view, 7> names = {"scene.toml",   "trajectory.h5", "trajectory.xdmf", "run.log",
                                                      "events.jsonl", "STOP",          "OUTPUT_NOW"};
-  if (is_start_file(name)) return true;
+  if (is_start_name(name)) return true;
   for (const std::string_view known : names)
     if (without_partial(name) == known) return true;
   return false;

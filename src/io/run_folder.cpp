@@ -5,6 +5,7 @@
 #include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/start_file.hpp>
+#include <skein/io/start_name.hpp>
 
 #include "run_file_names.hpp"
 
@@ -39,7 +40,7 @@ bool is_beginning(const RunFolder& folder, const std::string& name, const std::s
   const fs::path path = folder.path() / name;
   if (!is_file(path)) return false;
   if (name == "scene.toml.partial") return begins_as(scene, path);
-  if (is_start_file(name)) return begins_as_checkpoint(path);
+  if (is_start_name(name)) return begins_as_checkpoint(path);
   return path == folder.lock();
 }
 

@@ -3,6 +3,7 @@
 #include <skein/fibers/start_check.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/start_file.hpp>
+#include <skein/io/start_name.hpp>
 
 #include "checksum.hpp"
 
@@ -14,9 +15,6 @@
 
 namespace skein {
 namespace {
-
-constexpr std::string_view name_prefix = "start-", name_suffix = ".checkpoint";
-constexpr std::size_t checksum_size = 16;
 
 std::vector<Vec3> take_positions(const Checkpoint& start, const SceneConfig& scene) {
   if (start.number("state.time") != scene.time.start)
@@ -65,17 +63,7 @@ std::string checksum_of_start(const std::string_view bytes) {
 }
 
 std::filesystem::path find_start(const std::filesystem::path& folder, const std::string_view checksum) {
-  return folder / std::string(name_prefix).append(checksum).append(name_suffix);
-}
-
-bool is_start_file(std::string_view name) {
-  constexpr std::string_view partial = ".partial";
-  if (name.ends_with(partial)) name.remove_suffix(partial.size());
-  if (name.size() != name_prefix.size() + checksum_size + name_suffix.size() || !name.starts_with(name_prefix) ||
-      !name.ends_with(name_suffix))
-    return false;
-  const std::string_view checksum = name.substr(name_prefix.size(), checksum_size);
-  return checksum.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return folder / make_start_name(checksum);
 }
 
 std::vector<Vec3> decode_start(const std::string& bytes, const std::filesystem::path& file, const SceneConfig& scene) {

@@ -5,6 +5,7 @@
 #include <skein/io/folder_listing.hpp>
 #include <skein/io/read_file.hpp>
 #include <skein/io/start_file.hpp>
+#include <skein/io/start_name.hpp>
 #include <skein/scene/scene_file.hpp>
 
 #include "runs/memory_limit.hpp"
@@ -37,7 +38,7 @@ bool is_only_begun(const SweepFolder& folder) {
     if (path == folder.results() && fs::is_directory(fs::symlink_status(path)) && list_names(path).empty())
       has_results = true;
     else if (!is_file(path) || (path != folder.lock() && path != folder.base_scene() && !name.ends_with(".partial") &&
-                                !is_start_file(name)))
+                                !is_start_name(name)))
       return false;
   }
   return has_results;

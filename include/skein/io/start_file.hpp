@@ -25,9 +25,6 @@ std::string checksum_of_start(std::string_view bytes);
 /// Where the start with this checksum lies: start-<checksum>.checkpoint beside the scene.
 std::filesystem::path find_start(const std::filesystem::path& folder, std::string_view checksum);
 
-/// Whether a file of this name is such a one, also half-written as "<name>.partial".
-bool is_start_file(std::string_view name);
-
 /// @param file  for messages
 /// @returns [n_nodes], length
 /// @throws Error(damaged_data) if these are not the bytes that the scene names, or do not fit its nodes and start;
