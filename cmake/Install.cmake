@@ -2,9 +2,10 @@
 # skein::fibers needs nothing of what skein::io links.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS skein RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein FILES_MATCHING PATTERN "*.py" PATTERN "matplotlibrc"
+install(TARGETS skein RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(DIRECTORY include/skein DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(DIRECTORY tools/plots DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT program
+        FILES_MATCHING PATTERN "*.py" PATTERN "matplotlibrc"
         PATTERN "*.js" PATTERN "*.css" PATTERN "*.html"
         PATTERN skein_package.py EXCLUDE)
 
@@ -14,8 +15,8 @@ file(RELATIVE_PATH package /prefix/${plots} /prefix/${SKEIN_PYTHON_FOLDER}/skein
 file(READ tools/plots/skein_package.py text)
 string(REGEX REPLACE "\nPACKAGE = [^\n]*" "\nPACKAGE = \"${package}\"  # from here" text "${text}")
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/skein_package.py CONTENT "${text}" @ONLY)
-install(FILES ${CMAKE_BINARY_DIR}/generated/skein_package.py DESTINATION ${plots})
-install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein)
+install(FILES ${CMAKE_BINARY_DIR}/generated/skein_package.py DESTINATION ${plots} COMPONENT program)
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/skein COMPONENT program)
 
 # The program writes its own completion and page of the manual. Where it does not start, as one for another machine, there
 # are none.
@@ -28,8 +29,8 @@ execute_process(COMMAND \"$<TARGET_FILE:skein>\" ${arguments} OUTPUT_FILE \"${pr
 if(failure)
   message(WARNING \"skein does not run here: 'skein ${arguments}' is not installed\")
   file(REMOVE \"${printed}\")
-endif()")
-  install(FILES ${printed} OPTIONAL DESTINATION ${folder})
+endif()" COMPONENT program)
+  install(FILES ${printed} OPTIONAL DESTINATION ${folder} COMPONENT program)
 endfunction()
 skein_install_printed(skein ${CMAKE_INSTALL_DATADIR}/bash-completion/completions completion bash)
 skein_install_printed(skein.1 ${CMAKE_INSTALL_MANDIR}/man1 help --man)
@@ -45,8 +46,10 @@ foreach(layer IN LISTS layers)
   if(layer_PROGRAM)
     continue()
   endif()
-  install(TARGETS skein_${layer} EXPORT skein_${layer} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(EXPORT skein_${layer} NAMESPACE skein:: DESTINATION ${package_folder} FILE skein_${layer}.cmake)
+  install(TARGETS skein_${layer} EXPORT skein_${layer} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          COMPONENT development)
+  install(EXPORT skein_${layer} NAMESPACE skein:: DESTINATION ${package_folder} FILE skein_${layer}.cmake
+          COMPONENT development)
   list(APPEND SKEIN_COMPONENTS ${layer})
   # All that stand below, not only those that the rules name.
   set(below_${layer} ${layer_PUBLIC} ${layer_PRIVATE})
@@ -65,7 +68,7 @@ configure_package_config_file(cmake/skeinConfig.cmake.in ${CMAKE_BINARY_DIR}/ske
   INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES cmake/FindLibrary.cmake ${CMAKE_BINARY_DIR}/skeinConfig.cmake ${CMAKE_BINARY_DIR}/skeinConfigVersion.cmake
-  DESTINATION ${package_folder})
+  DESTINATION ${package_folder} COMPONENT development)
 
 if(SKEIN_NATIVE)
   install(CODE [[message(WARNING "This skein is compiled for this machine's processor (-march=native); on others it may "

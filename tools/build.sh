@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets up, configures and builds one preset:
-#   tools/build.sh [openmp|serial|release|sanitize|memcheck|fuzz|cuda|hip] [--target=NAME...] [options for cmake]
+#   tools/build.sh [openmp|serial|release|package|sanitize|memcheck|fuzz|cuda|hip] [--target=NAME...] [options for cmake]
 # Without a target everything is built, tests and benches too.
 # With SKEIN_SETUP_OPTIONS in the environment, tools/setup.sh is given those too.
 set -euo pipefail
@@ -13,7 +13,10 @@ if (($#)) && [[ $1 != -* ]]; then
 fi
 case $preset in
   openmp | serial | cuda | hip) backend=$preset ;;
-  release) backend=openmp ;;
+  release | package)
+    backend=openmp
+    export SKEIN_PROCESSOR=${SKEIN_PROCESSOR:-x86-64} SKEIN_KOKKOS_PREFIX= # a Kokkos of its own, for these processors, too
+    ;;
   sanitize) backend=serial ;;
   fuzz)
     backend=serial
@@ -24,7 +27,7 @@ case $preset in
     export SKEIN_PROCESSOR=x86-64-v3 SKEIN_KOKKOS_PREFIX= # for a Kokkos of its own; valgrind knows nothing newer
     ;;
   *)
-    echo "build.sh: unknown preset '$preset'; known are openmp, serial, release, sanitize, memcheck, fuzz, cuda and hip." >&2
+    echo "build.sh: unknown preset '$preset'; known are openmp, serial, release, package, sanitize, memcheck, fuzz, cuda and hip." >&2
     exit 1
     ;;
 esac
