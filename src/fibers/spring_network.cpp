@@ -1,5 +1,6 @@
 #include <skein/core/error.hpp>
 #include <skein/fibers/spring_network.hpp>
+#include <skein/scene/profile.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -27,17 +28,6 @@ SpringStencil make_stencil(const FiberConfig& config, const double spacing) {
     }
   }
   return stencil;
-}
-
-/// Straight lines between the points, constant beyond them.
-double interpolate(const std::vector<ProfilePoint>& profile, const double position) {
-  const auto after = std::find_if(profile.begin(), profile.end(),
-                                  [position](const ProfilePoint& point) { return point.position >= position; });
-  if (after == profile.begin()) return profile.front().factor;
-  if (after == profile.end()) return profile.back().factor;
-  const ProfilePoint& before = *(after - 1);
-  const double share = (position - before.position) / (after->position - before.position);
-  return before.factor + share * (after->factor - before.factor);
 }
 
 std::vector<double> make_section_factors(const FiberConfig& config) {

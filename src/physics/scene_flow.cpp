@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/core/smooth_step.hpp>
 #include <skein/physics/flow_summary.hpp>
 #include <skein/physics/scene_flow.hpp>
 
@@ -18,12 +19,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// 0 before `start`, 1 after `start + ramp`; a cubic without kinks in between.
+/// 0 before `start`, 1 after `start + ramp`.
 double rise(const double time, const double start, const double ramp) {
   if (time < start) return 0.0;
-  if (time >= start + ramp) return 1.0;
-  const double share = (time - start) / ramp;
-  return share * share * (3.0 - 2.0 * share);
+  return time >= start + ramp ? 1.0 : smooth_step((time - start) / ramp);
 }
 
 bool keeps_rate(const FlowConfig& flow) {
