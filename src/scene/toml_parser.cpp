@@ -1,18 +1,12 @@
 #include "toml_parser.hpp"
 
+#include "toml_library.hpp"
+
 #include <fmt/format.h>
-#include <toml++/impl/preprocessor.h>
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
-
-// toml++ 3.3 states in assertions what a text that is no TOML breaks ("[(": no key begins so), before it looks and says
-// so. They would end a debug build, and tell clang in every other one that no such text comes. Without them it gets to
-// its message.
-#undef TOML_ASSERT_ASSUME
-#define TOML_ASSERT_ASSUME(...) static_assert(true)
-#include <toml++/toml.h>
 
 namespace skein {
 namespace {

@@ -32,7 +32,7 @@ class Planning(InFreshFolder):
         self.write(SCENE)
 
     def plan(self, *words):
-        result = skein("plan", "scene.toml", "--json", "-q", *words, cwd=self.folder)
+        result = skein("plan", "scene.toml", "--json", "-q", *words, cwd=self.folder, timeout=400)
         return result.returncode, json.loads(result.stdout)
 
     def half_turn(self, name):

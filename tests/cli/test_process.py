@@ -176,6 +176,8 @@ class Memory(InFreshFolder):
         return used.ru_utime + used.ru_stime
 
     def test_a_scene_that_cannot_fit_is_refused_at_once_with_an_estimate(self):
+        if b"AddressSanitizer" in pathlib.Path(PROGRAM).read_bytes():
+            self.skipTest("the sanitizer's shadow memory is larger than what may be had")
         self.write("[fiber]\nsections = 50000\nnodes_per_section = 18\n[placement]\nkind = \"grid\"\n"
                    "grid = [111, 1, 1]\nspacing = [1000.0, 1.0, 1.0]\n")
         limit = {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_AS, (2**33, 2**33))}
