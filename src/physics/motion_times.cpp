@@ -47,6 +47,14 @@ double find_torque_time(const std::vector<TorqueConfig>& torques, const std::vec
   return time;
 }
 
+double find_undulation_time(const std::vector<UndulationConfig>& undulations) {
+  double time = infinity;
+  for (const UndulationConfig& wave : undulations)
+    if (wave.curvature != 0.0 && wave.angular_frequency != 0.0)
+      time = std::min(time, 2.0 * std::numbers::pi / std::abs(wave.angular_frequency));
+  return time;
+}
+
 double find_relaxation_time(const std::vector<Fiber>& fibers, const double viscosity) {
   constexpr double wave_number = 4.7300;  // times the length, of the first bend of a beam with free ends
   double time = infinity;

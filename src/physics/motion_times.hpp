@@ -18,6 +18,9 @@ double find_tether_time(const std::vector<TetherConfig>& tethers, const std::vec
 
 double find_torque_time(const std::vector<TorqueConfig>& torques, const std::vector<Fiber>& fibers, double viscosity);
 
+/// Of waves that travel or beat: a period.
+double find_undulation_time(const std::vector<UndulationConfig>& undulations);
+
 /// In which the slowest bend of a free fiber relaxes.
 double find_relaxation_time(const std::vector<Fiber>& fibers, double viscosity);
 

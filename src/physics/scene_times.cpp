@@ -58,9 +58,10 @@ SceneConfig fill_in_times(SceneConfig scene, const double time_scale) {
 double find_time_scale(const SceneConfig& scene) {
   const auto fibers = make_fibers(scene.fibers);
   const double viscosity = scene.fluid.viscosity;
-  const double scale = std::min({summarize_flow(scene.flows).time_scale, find_tether_time(scene.tethers, fibers),
-                                 find_torque_time(scene.torques, fibers, viscosity),
-                                 find_falling_time(scene.gravity.weight, fibers, viscosity)});
+  const double scale =
+      std::min({summarize_flow(scene.flows).time_scale, find_tether_time(scene.tethers, fibers),
+                find_torque_time(scene.torques, fibers, viscosity), find_undulation_time(scene.undulations),
+                find_falling_time(scene.gravity.weight, fibers, viscosity)});
   return std::isfinite(scale) ? scale : find_relaxation_time(fibers, viscosity);
 }
 

@@ -127,6 +127,11 @@ std::string find_gravity_fault(const GravityConfig& gravity, const SignMatrix ma
                      describe_vector(gravity.direction));
 }
 
+// Which waves map onto each other depends on planes that turn with the fibers.
+std::string find_undulation_fault(const SceneConfig& scene) {
+  return scene.undulations.empty() ? "" : "fibers undulate, which symmetry does not know yet: leave it out";
+}
+
 /// Nodes of the start, and how far they reach from the origin.
 struct Start {
   std::vector<Fiber> fibers;
@@ -141,7 +146,7 @@ std::string find_fault(const SceneConfig& scene, const Start& start, const SignM
   for (const std::string& fault :
        {find_flow_fault(scene.flows, matrix, start.reach), find_gravity_fault(scene.gravity, matrix),
         find_tether_fault(scene, start.fibers, map, matrix, start.reach),
-        find_torque_fault(scene, start.fibers, map, matrix)})
+        find_torque_fault(scene, start.fibers, map, matrix), find_undulation_fault(scene)})
     if (!fault.empty()) return fault;
   return {};
 }

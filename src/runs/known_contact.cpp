@@ -39,7 +39,7 @@ bool is_uniform(const FiberConfig& fiber) {
 /// Nothing but the flow acts on one fiber as written.
 bool is_alone(const SceneConfig& scene) {
   return scene.fibers.size() == 1 && scene.gravity.weight == 0.0 && scene.tethers.empty() && scene.torques.empty() &&
-         scene.start.checksum.empty();
+         scene.undulations.empty() && scene.start.checksum.empty();
 }
 
 std::string describe_models(const ContactRow& row) {

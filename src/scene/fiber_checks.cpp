@@ -106,19 +106,20 @@ void check_fiber(const FiberConfig& fiber, const std::string& path, const SceneR
   }
 }
 
-void check_profile(const std::vector<ProfilePoint>& profile, const std::string& path, const SceneReader& reader,
-                   std::vector<Problem>& problems) {
+}  // namespace
+
+void check_profile(const std::vector<ProfilePoint>& profile, const std::string& path, const double least_factor,
+                   const SceneReader& reader, std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const bool is_ordered = i == 0 || profile[i].position > profile[i - 1].position;
-    if (is_ordered && profile[i].position <= 1.0 && profile[i].factor >= 1e-6) continue;
+    if (is_ordered && profile[i].position <= 1.0 && profile[i].factor >= least_factor) continue;
     reader.add(problems, path,
-               fmt::format("{}: pair {} is [{}, {}]; positions grow from 0 to 1, factors are above 0", path, i,
-                           format_number(profile[i].position), format_number(profile[i].factor)));
+               fmt::format("{}: pair {} is [{}, {}]; positions grow from 0 to 1, factors are {}", path, i,
+                           format_number(profile[i].position), format_number(profile[i].factor),
+                           least_factor > 0.0 ? "above 0" : "0 or more"));
     return;
   }
 }
-
-}  // namespace
 
 void check_fibers(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                   std::vector<Problem>& warnings) {
@@ -127,7 +128,7 @@ void check_fibers(const SceneConfig& scene, const SceneReader& reader, std::vect
     if (!reader.is_sound(path)) continue;
     check_model(scene.fibers[i], path, reader, problems);
     check_fiber(scene.fibers[i], path, reader, problems, warnings);
-    check_profile(scene.fibers[i].stiffness_profile, path + ".stiffness_profile", reader, problems);
+    check_profile(scene.fibers[i].stiffness_profile, path + ".stiffness_profile", 1e-6, reader, problems);
   }
 }
 

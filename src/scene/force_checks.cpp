@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 namespace skein {
@@ -92,6 +93,42 @@ void check_torques(const SceneConfig& scene, const SceneReader& reader, std::vec
   }
 }
 
+/// What a wave asks of a tube: its springs shorten and lengthen by half at most.
+void check_undulations(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
+  constexpr double most_bent = 0.5;
+  std::map<int, double> bent;
+  for (std::size_t i = 0; i < scene.undulations.size(); ++i) {
+    const std::string path = reader.path_of("undulation", i);
+    const UndulationConfig& wave = scene.undulations[i];
+    if (!reader.is_sound(path) || scene.fibers.empty()) continue;
+    check_profile(wave.envelope, path + ".envelope", 0.0, reader, problems);
+    if (wave.fiber >= count_fibers(scene)) {
+      reader.add(
+          problems, path + ".fiber",
+          fmt::format("{}.fiber {}: the scene's fibers are 0 to {:.0f}", path, wave.fiber, count_fibers(scene) - 1.0));
+      continue;
+    }
+    const std::size_t model = static_cast<std::size_t>(wave.fiber) % scene.fibers.size();
+    const FiberConfig& fiber = scene.fibers[model];
+    if (!reader.is_sound(reader.path_of("fiber", model))) continue;
+    if (fiber.is_line()) {
+      reader.add(
+          problems, path + ".fiber",
+          fmt::format("{}.fiber {}: chains and rigid fibers have no sides to bend to; take a tube", path, wave.fiber));
+      continue;
+    }
+    double highest = 0.0;
+    for (const ProfilePoint& point : wave.envelope) highest = std::max(highest, point.factor);
+    const double own = highest * std::abs(wave.curvature) * fiber.radius;
+    const double sum = bent[wave.fiber] += own;
+    if (own > 0.0 && sum > most_bent)
+      reader.add(problems, path + ".curvature",
+                 fmt::format("{}.curvature {}: the waves of fiber {} bend it to a curvature of {:.3g} / radius, and "
+                             "{} is the most",
+                             path, format_number(wave.curvature), wave.fiber, sum, most_bent));
+  }
+}
+
 }  // namespace
 
 void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
@@ -102,6 +139,7 @@ void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vect
   check_loads("tether", scene.tethers, scene, reader, problems);
   check_loads("torque", scene.torques, scene, reader, problems);
   check_torques(scene, reader, problems);
+  check_undulations(scene, reader, problems);
 }
 
 }  // namespace skein

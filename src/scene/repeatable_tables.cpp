@@ -137,6 +137,32 @@ void visit_torque(KeyVisitor& visitor, TorqueConfig& torque) {
                  torque.angular_velocity);
 }
 
+void visit_undulation(KeyVisitor& visitor, UndulationConfig& wave) {
+  visitor.integer({"fiber", "", between(0, 1e9), "number of the fiber, from 0, as the scene in the run folder has it"},
+                  wave.fiber);
+  visitor.number({"curvature", "1 / length", any_number(), "that the fiber prefers where the wave is highest"},
+                 wave.curvature);
+  visitor.number({"wavelength", "length", zero_or_more(), "along the fiber; 0: the same phase everywhere"},
+                 wave.wavelength);
+  visitor.number({"angular_frequency", "radians / time", any_number(),
+                  "above 0 the wave travels from the first section to the last, below 0 back"},
+                 wave.angular_frequency);
+  visitor.number({"phase", "degrees", between(-360, 360), "of the wave at the first section at t = 0; 0: highest"},
+                 wave.phase);
+  visitor.number({"plane", "degrees", between(-360, 360),
+                  "side of the fiber towards which it bends, from node 0 of its sections; turns with the fiber. Node 0 "
+                  "lies towards y for a fiber along x with roll 0, 90 degrees on is towards z"},
+                 wave.plane);
+  visitor.number({"ramp", "time", zero_or_more(), "over which the wave rises from t = 0 on; 0: it is there at once"},
+                 wave.ramp);
+  visitor.profile({"envelope",
+                   "",
+                   {0.0, largest_number, "2 to 64 pairs"},
+                   "[position, factor] pairs, position 0 at the first section and 1 at the last: the wave is factor "
+                   "times as high there, straight lines in between"},
+                  wave.envelope);
+}
+
 /// @param visit_one  shows the keys of one
 template <class Config>
 RepeatableTable make_table(const std::string& name, const WhenAbsent when_absent,
@@ -171,7 +197,10 @@ const std::vector<RepeatableTable>& repeatable_tables() {
           "A spring that holds a section of a fiber at a point of space, which may move; [[tether]] once for each "
           "of several."),
       make_table("torque", WhenAbsent::stands_for_none, &SceneConfig::torques, visit_torque,
-                 "A torque on a section of a fiber, constant or turning; [[torque]] once for each of several.")};
+                 "A torque on a section of a fiber, constant or turning; [[torque]] once for each of several."),
+      make_table("undulation", WhenAbsent::stands_for_none, &SceneConfig::undulations, visit_undulation,
+                 "A wave of curvature that a tube prefers to being straight, so that it swims; [[undulation]] once for "
+                 "each of several, which are added.")};
   return tables;
 }
 

@@ -16,7 +16,11 @@ void check_scene(const SceneConfig& scene, const SceneReader& reader, std::vecto
 void check_fibers(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                   std::vector<Problem>& warnings);
 
-/// The part of check_scene that is about forces: [repulsion], [gravity], [[tether]], [[torque]].
+/// Of [position, factor] pairs: positions grow from 0 to 1, factors are at least this.
+void check_profile(const std::vector<ProfilePoint>& profile, const std::string& path, double least_factor,
+                   const SceneReader& reader, std::vector<Problem>& problems);
+
+/// The part of check_scene that is about forces: [repulsion], [gravity], [[tether]], [[torque]], [[undulation]].
 void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                   std::vector<Problem>& warnings);
 

@@ -19,7 +19,8 @@ namespace {
 /// Why a rung cannot stand for a scene's fibers, before it is tried; empty where it can.
 std::string find_bar(const SceneConfig& scene, const int rung) {
   if (rung == rigid_rung) return find_bar_to_rigid(scene);
-  return rung == chain_rung && !scene.torques.empty() ? "a chain knows no twist" : "";
+  if (rung == chain_rung && !scene.torques.empty()) return "a chain knows no twist";
+  return rung == chain_rung && !scene.undulations.empty() ? "only tubes undulate" : "";
 }
 
 }  // namespace

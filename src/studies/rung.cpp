@@ -106,6 +106,7 @@ std::string find_bar_to_rigid(const SceneConfig& scene) {
   if (has([](const FiberConfig& fiber) { return fiber.start_amplitude > 0.0 || fiber.start_noise > 0.0; }))
     return "fibers start bent";
   if (!scene.torques.empty()) return "torques turn sections";
+  if (!scene.undulations.empty()) return "fibers undulate";
   if (scene.time.method == TimeMethod::trbdf2) return "time.method is \"trbdf2\"";
   return {};
 }

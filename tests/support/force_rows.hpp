@@ -64,6 +64,15 @@ inline const ForceRow force_rows[] = {
                         {1, -1, {0.02, 0.0, 0.01}, {}},
                         {0, 3, {0.0, 0.04, 0.0}, {0.0, 0.0, -1.0}}};
      }},
+    {"undulation",
+     [](SceneConfig& scene) {
+       scene.fibers[0].reach_along = 2;
+       scene.fibers[0].stiffness_profile = {{0.2, 1.0}, {0.8, 1.7}};
+       scene.undulations = {{0, 30.0, 0.03, 3.0, 20.0, 40.0, 0.9, {{0.0, 0.2}, {1.0, 1.0}}},
+                            {1, -17.0, 0.0, -2.0, -50.0, 0.0, 0.0},
+                            {0, 12.0, 0.05, 5.0, 0.0, 130.0, 0.0}};
+     }},
+    {"steady_undulation", [](SceneConfig& scene) { scene.undulations = {{.fiber = 1, .curvature = 25.0}}; }},
 };
 
 }  // namespace skein::test

@@ -134,6 +134,21 @@ struct TorqueConfig {
   friend bool operator==(const TorqueConfig&, const TorqueConfig&) = default;
 };
 
+/// A wave of preferred curvature in a tube, through the lengths at rest of the springs between its sections:
+/// curvature envelope rise(t / ramp) cos(2 pi s / wavelength - angular_frequency t + phase), s being the arclength from
+/// the first section. Waves of one fiber are added.
+struct UndulationConfig {
+  int fiber = 0;
+  double curvature = 0.0;                                      ///< 1 / length
+  double wavelength = 0.0;                                     ///< length; 0: the same phase everywhere
+  double angular_frequency = 0.0;                              ///< radians / time
+  double phase = 0.0;                                          ///< degrees
+  double plane = 0.0;                                          ///< degrees about the fiber from node 0 of a section
+  double ramp = 0.0;                                           ///< time in which it rises from t = 0 on
+  std::vector<ProfilePoint> envelope{{0.0, 1.0}, {1.0, 1.0}};  ///< straight lines between the points
+  friend bool operator==(const UndulationConfig&, const UndulationConfig&) = default;
+};
+
 /// What maps the scene onto itself, and keeps doing so: a plane or an axis through the origin.
 struct SymmetryConfig {
   SymmetryAxis mirror = SymmetryAxis::none;     ///< normal of the plane
@@ -201,6 +216,7 @@ struct SceneConfig {
   GravityConfig gravity;
   std::vector<TetherConfig> tethers;
   std::vector<TorqueConfig> torques;
+  std::vector<UndulationConfig> undulations;
   SymmetryConfig symmetry;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;

@@ -1,0 +1,145 @@
+#include "force_table.hpp"
+#include "motion_times.hpp"
+#include "node_sums.hpp"
+#include "wave_springs.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace skein {
+namespace {
+
+/// What a wave adds to the force of a spring is linear in the vector d between its ends: -k (1/l(t) - 1/l) d.
+struct AddWaveForce {
+  WaveArrays waves;
+  ConstVectors position;
+  Vectors force;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int node) const {
+    if (waves.fiber_of_node(node) < 0) return;
+    const Vec3 x = load(position, node);
+    Vec3 sum;
+    for_springs_of(waves, node, true, [&](const int other, const RestChange& spring) {
+      sum = sum - spring.stiffness * spring.inverse_change * (x - load(position, other));
+    });
+    store(force, node, load(force, node) + sum);
+  }
+};
+
+/// The energy k l(t) (r/l(t) - 1)^2 / 2 of springs to later sections, less what it is without waves.
+struct WaveEnergy {
+  WaveArrays waves;
+  ConstVectors position;
+
+  KOKKOS_INLINE_FUNCTION double operator()(const int node) const {
+    if (waves.fiber_of_node(node) < 0) return 0.0;
+    const Vec3 x = load(position, node);
+    double sum = 0.0;
+    for_springs_of(waves, node, false, [&](const int other, const RestChange& spring) {
+      const Vec3 d = x - load(position, other);
+      sum += 0.5 * spring.stiffness * (dot(d, d) * spring.inverse_change + spring.change);
+    });
+    return sum;
+  }
+};
+
+/// Its rate of change where nodes stand still.
+struct WavePower {
+  WaveArrays waves;
+  ConstVectors position;
+
+  KOKKOS_INLINE_FUNCTION double operator()(const int node) const {
+    if (waves.fiber_of_node(node) < 0) return 0.0;
+    const Vec3 x = load(position, node);
+    double sum = 0.0;
+    for_springs_of(waves, node, false, [&](const int other, const RestChange& spring) {
+      if (spring.stiffness == 0.0) return;
+      const Vec3 d = x - load(position, other);
+      sum += 0.5 * spring.stiffness * spring.rate * (1.0 - dot(d, d) / (spring.length * spring.length));
+    });
+    return sum;
+  }
+};
+
+/// Waves of preferred curvature, as changes of the lengths at rest of the springs between sections: what they add to
+/// the forces of these springs.
+class Undulations final : public Force {
+ public:
+  Undulations(const std::vector<UndulationConfig>& configs, const std::vector<Fiber>& fibers)
+      : configs_(configs),
+        waves_(make_wave_arrays(configs, fibers)),
+        sums_("skein::Undulations::sums", fibers, waves_.fiber_of_node.extent(0)) {}
+
+  ForcePromises promises() const override {
+    bool is_steady = true;
+    for (const UndulationConfig& config : configs_)
+      is_steady = is_steady && config.angular_frequency == 0.0 && config.ramp == 0.0;
+    return {.is_balanced = true,
+            .is_torque_free = true,
+            .is_conservative = true,
+            .is_steady = is_steady,
+            .is_frame_indifferent = true};
+  }
+
+  void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
+    set_time(time);
+    Kokkos::parallel_for("skein::add_undulation_forces", nodes(), AddWaveForce{waves_, position, force});
+  }
+
+  void add_force_changes(const double time, const ConstVectors& /*position*/, const ConstVectors& displacement,
+                         const Vectors& change) const override {
+    set_time(time);
+    Kokkos::parallel_for("skein::add_undulation_force_changes", nodes(), AddWaveForce{waves_, displacement, change});
+  }
+
+  void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
+    set_time(time);
+    sums_.add("skein::compute_undulation_energy", energy, WaveEnergy{waves_, position});
+  }
+
+  void add_drive_powers(const double time, const ConstVectors& position, const ConstVectors& /*velocity*/,
+                        std::vector<double>& power) const override {
+    set_time(time);
+    sums_.add("skein::compute_undulation_power", power, WavePower{waves_, position});
+  }
+
+  double time_scale() const override { return find_undulation_time(configs_); }
+
+  void add_course(TimeCourse& course) const override {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const UndulationConfig& config : configs_) {
+      if (config.angular_frequency != 0.0)
+        course.add_oscillation(0.0, infinity, 2.0 * std::numbers::pi / std::abs(config.angular_frequency));
+      if (config.ramp > 0.0) course.add_ramp(0.0, config.ramp);
+    }
+  }
+
+  std::string describe() const override {
+    return fmt::format("{} wave{} of preferred curvature", configs_.size(), configs_.size() == 1 ? "" : "s");
+  }
+
+ private:
+  Kokkos::RangePolicy<ExecSpace> nodes() const { return {ExecSpace(), 0, waves_.fiber_of_node.extent(0)}; }
+
+  void set_time(const double time) const {
+    const WaveArrays waves = waves_;
+    Kokkos::parallel_for(
+        "skein::compute_preferred_curvature", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, waves.gap.extent(0)),
+        KOKKOS_LAMBDA(const int gap) { waves.curvature(gap) = sum_waves(waves, waves.gap(gap), time); });
+  }
+
+  std::vector<UndulationConfig> configs_;
+  WaveArrays waves_;
+  NodeSums sums_;
+};
+
+}  // namespace
+
+void append_undulations(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
+  if (!scene.undulations.empty()) forces.push_back(std::make_unique<Undulations>(scene.undulations, fibers));
+}
+
+}  // namespace skein
