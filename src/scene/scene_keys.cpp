@@ -125,7 +125,8 @@ void visit_time(KeyVisitor& visitor, TimeConfig& time) {
       {"tolerance", "1 / time", zero_or_more(),
        "error allowed per unit of time, as a fraction of the longest fiber's length; 0: 4e-5 per time scale, "
        "1e-4 in shear of rate 2.5. The time scale is 1 / rate of the flow; where a weight, a torque or a "
-       "moving tether carries a fiber over its length sooner, or a wave's period is shorter, that time; in a fluid at rest that in which a "
+       "moving tether carries a fiber over its length sooner, or a wave's period is shorter, that time; in a fluid at "
+       "rest that in which a "
        "bent fiber relaxes"},
       time.tolerance);
   visitor.number({"max_step",

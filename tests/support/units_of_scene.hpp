@@ -36,6 +36,10 @@ inline SceneConfig rescale(SceneConfig scene, const Units& units) {
     torque.torque = (force * length) * torque.torque;
     torque.angular_velocity = (1.0 / time) * torque.angular_velocity;
   }
+  for (UndulationConfig& wave : scene.undulations) {
+    wave.curvature /= length, wave.wavelength *= length;
+    wave.angular_frequency /= time, wave.ramp *= time;
+  }
   scene.time.end *= time, scene.time.step *= time, scene.time.max_step *= time;
   scene.time.tolerance /= time;
   scene.output.frame_interval *= time;

@@ -111,6 +111,9 @@ TEST(Rung, SaysWhatBarsRigidFibers) {
   other.torques.push_back({0, 0});
   EXPECT_NE(find_bar_to_rigid(other).find("torque"), std::string::npos);
   other = straight;
+  other.undulations.push_back({});
+  EXPECT_NE(find_bar_to_rigid(other).find("undulate"), std::string::npos);
+  other = straight;
   other.time.method = TimeMethod::trbdf2;
   EXPECT_NE(find_bar_to_rigid(other).find("trbdf2"), std::string::npos);
 }
