@@ -7,6 +7,8 @@
 
 #include <toml++/impl/preprocessor.h>
 
+#include <cstdint>  // which the tables of characters leave to whoever includes them
+
 #undef TOML_ASSERT_ASSUME
 #define TOML_ASSERT_ASSUME(...) static_assert(true)
 
