@@ -12,6 +12,15 @@
 namespace skein {
 namespace {
 
+struct SetCurvature {
+  WaveArrays waves;
+  double time;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int gap) const {
+    waves.curvature(gap) = sum_waves(waves, waves.gap(gap), time);
+  }
+};
+
 /// What a wave adds to the force of a spring is linear in the vector d between its ends: -k (1/l(t) - 1/l) d.
 struct AddWaveForce {
   WaveArrays waves;
@@ -125,10 +134,9 @@ class Undulations final : public Force {
   Kokkos::RangePolicy<ExecSpace> nodes() const { return {ExecSpace(), 0, waves_.fiber_of_node.extent(0)}; }
 
   void set_time(const double time) const {
-    const WaveArrays waves = waves_;
-    Kokkos::parallel_for(
-        "skein::compute_preferred_curvature", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, waves.gap.extent(0)),
-        KOKKOS_LAMBDA(const int gap) { waves.curvature(gap) = sum_waves(waves, waves.gap(gap), time); });
+    Kokkos::parallel_for("skein::compute_preferred_curvature",
+                         Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, waves_.gap.extent(0)),
+                         SetCurvature{waves_, time});
   }
 
   std::vector<UndulationConfig> configs_;
