@@ -38,20 +38,30 @@ struct AddWaveForce {
   }
 };
 
-/// The energy k l(t) (r/l(t) - 1)^2 / 2 of springs to later sections, less what it is without waves.
+/// Half of the stiffness times a term, summed over a node's springs to later sections: term(r^2, rest change).
+template <class Term>
+KOKKOS_INLINE_FUNCTION double sum_later_springs(const WaveArrays& waves, const ConstVectors& position, const int node,
+                                                const Term& term) {
+  if (waves.fiber_of_node(node) < 0) return 0.0;
+  const Vec3 x = load(position, node);
+  double sum = 0.0;
+  for_springs_of(waves, node, false, [&](const int other, const RestChange& spring) {
+    if (spring.stiffness == 0.0) return;
+    const Vec3 d = x - load(position, other);
+    sum += 0.5 * spring.stiffness * term(dot(d, d), spring);
+  });
+  return sum;
+}
+
+/// The energy k l(t) (r/l(t) - 1)^2 / 2 of springs, less what it is without waves.
 struct WaveEnergy {
   WaveArrays waves;
   ConstVectors position;
 
   KOKKOS_INLINE_FUNCTION double operator()(const int node) const {
-    if (waves.fiber_of_node(node) < 0) return 0.0;
-    const Vec3 x = load(position, node);
-    double sum = 0.0;
-    for_springs_of(waves, node, false, [&](const int other, const RestChange& spring) {
-      const Vec3 d = x - load(position, other);
-      sum += 0.5 * spring.stiffness * (dot(d, d) * spring.inverse_change + spring.change);
+    return sum_later_springs(waves, position, node, [](const double square, const RestChange& spring) {
+      return square * spring.inverse_change + spring.change;
     });
-    return sum;
   }
 };
 
@@ -61,15 +71,9 @@ struct WavePower {
   ConstVectors position;
 
   KOKKOS_INLINE_FUNCTION double operator()(const int node) const {
-    if (waves.fiber_of_node(node) < 0) return 0.0;
-    const Vec3 x = load(position, node);
-    double sum = 0.0;
-    for_springs_of(waves, node, false, [&](const int other, const RestChange& spring) {
-      if (spring.stiffness == 0.0) return;
-      const Vec3 d = x - load(position, other);
-      sum += 0.5 * spring.stiffness * spring.rate * (1.0 - dot(d, d) / (spring.length * spring.length));
+    return sum_later_springs(waves, position, node, [](const double square, const RestChange& spring) {
+      return spring.rate * (1.0 - square / (spring.length * spring.length));
     });
-    return sum;
   }
 };
 

@@ -112,10 +112,14 @@ void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
   visit_chain(visitor, fiber);
 }
 
-/// @param instances  the scene's list of them
-void visit_tether(KeyVisitor& visitor, TetherConfig& tether) {
+/// Of what acts on one fiber.
+void visit_number_of_fiber(KeyVisitor& visitor, int& fiber) {
   visitor.integer({"fiber", "", between(0, 1e9), "number of the fiber, from 0, as the scene in the run folder has it"},
-                  tether.fiber);
+                  fiber);
+}
+
+void visit_tether(KeyVisitor& visitor, TetherConfig& tether) {
+  visit_number_of_fiber(visitor, tether.fiber);
   visitor.integer({"section", "", between(-1e9, 1e9), "section that is held, from 0; -1 is the last"}, tether.section);
   visitor.number({"stiffness", "force / length", above_zero(), "force of the spring over the distance of its ends"},
                  tether.stiffness);
@@ -126,8 +130,7 @@ void visit_tether(KeyVisitor& visitor, TetherConfig& tether) {
 }
 
 void visit_torque(KeyVisitor& visitor, TorqueConfig& torque) {
-  visitor.integer({"fiber", "", between(0, 1e9), "number of the fiber, from 0, as the scene in the run folder has it"},
-                  torque.fiber);
+  visit_number_of_fiber(visitor, torque.fiber);
   visitor.integer({"section", "", between(-1e9, 1e9), "section that is turned, from 0; -1 is the last"},
                   torque.section);
   visitor.vector({"torque", "force * length", any_number(), "on the section at t = 0, in directions of space"},
@@ -138,8 +141,7 @@ void visit_torque(KeyVisitor& visitor, TorqueConfig& torque) {
 }
 
 void visit_undulation(KeyVisitor& visitor, UndulationConfig& wave) {
-  visitor.integer({"fiber", "", between(0, 1e9), "number of the fiber, from 0, as the scene in the run folder has it"},
-                  wave.fiber);
+  visit_number_of_fiber(visitor, wave.fiber);
   visitor.number({"curvature", "1 / length", any_number(), "that the fiber prefers where the wave is highest"},
                  wave.curvature);
   visitor.number({"wavelength", "length", zero_or_more(), "along the fiber; 0: the same phase everywhere"},
