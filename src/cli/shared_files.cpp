@@ -2,6 +2,8 @@
 
 #include <skein/core/error.hpp>
 
+#include "skein_places.hpp"
+
 #include <fmt/format.h>
 
 #include <system_error>
@@ -12,8 +14,8 @@ std::filesystem::path find_shared_file(const std::string& installed, const std::
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path places[] = {program.parent_path() / SKEIN_SHARE_FROM_PROGRAM / installed,
-                             fs::path(SKEIN_SOURCES) / in_sources};
+  const fs::path places[] = {program.parent_path() / share_from_program / installed,
+                             fs::path(source_folder) / in_sources};
   for (const fs::path& place : places)
     if (fs::exists(place, error)) return place.lexically_normal();
   throw Error(ExitCode::missing_input,

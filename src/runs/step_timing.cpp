@@ -25,7 +25,9 @@ StepTiming time_steps(const SceneConfig& asked, const double seconds) {
   // The first steps find out how long steps may be.
   const auto start = WallClock::now();
   double dt = 0.0;
-  for (bool grows = true; grows && seconds_since(start) < seconds && state.time < scene.time.end;) {
+  // nvcc takes "call() < name && other.member <" for a template.
+  const auto is_over = [&] { return seconds_since(start) >= seconds || state.time >= scene.time.end; };
+  for (bool grows = true; grows && !is_over();) {
     const double before = std::exchange(dt, integrator->advance(state, scene.time.end).dt);
     grows = dt > 1.2 * before;
   }
