@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -106,6 +107,15 @@ TEST(DotProduct, NotANumberIsNotLost) {
 
 TEST(DotProduct, RefusesArraysOfDifferentLengths) {
   EXPECT_THROW(dot_product<ExecSpace>(ExecSpace(), on_device(make_list(10, 1)), on_device(make_list(9, 1))), Error);
+}
+
+// Their components are apart from each other, which a copy from a device's memory has to know.
+TEST(ToHost, TakesSomeNodesOfAnArray) {
+  const auto list = make_list(600, 3);
+  const auto some = to_host(Kokkos::subview(on_device(list), std::make_pair(17, 23), Kokkos::ALL()));
+  ASSERT_EQ(some.size(), 6U);
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(norm(some[i] - list[i + 17]), 0.0) << i;
+  EXPECT_TRUE(to_host(Kokkos::subview(on_device(list), std::make_pair(4, 4), Kokkos::ALL())).empty());
 }
 
 }  // namespace
