@@ -4,17 +4,16 @@ namespace skein {
 
 template <class Space>
 BlobRange find_blob_range(const Space& space, const ConstScalarView<Space>& blob) {
-  const Kokkos::RangePolicy<Space> range(space, 0, blob.extent_int(0));
-  BlobRange found{0.0, 0.0};
+  using Extremes = Kokkos::MinMax<double>;
+  typename Extremes::value_type found;
   Kokkos::parallel_reduce(
-      "skein::find_smallest_blob", range,
-      KOKKOS_LAMBDA(const int i, double& least) { least = blob(i) < least ? blob(i) : least; },
-      Kokkos::Min<double>(found.smallest));
-  Kokkos::parallel_reduce(
-      "skein::find_largest_blob", range,
-      KOKKOS_LAMBDA(const int i, double& most) { most = blob(i) > most ? blob(i) : most; },
-      Kokkos::Max<double>(found.largest));
-  return found;
+      "skein::find_blob_range", Kokkos::RangePolicy<Space>(space, 0, blob.extent_int(0)),
+      KOKKOS_LAMBDA(const int i, typename Extremes::value_type& extremes) {
+        if (blob(i) < extremes.min_val) extremes.min_val = blob(i);
+        if (blob(i) > extremes.max_val) extremes.max_val = blob(i);
+      },
+      Extremes(found));
+  return {found.min_val, found.max_val};
 }
 
 template <class Space>

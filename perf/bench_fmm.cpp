@@ -1,8 +1,8 @@
 // The fast multipole method against this project's direct sum in the same run: error against order, speed against
 // error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
 // and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [step] [crossover] [uniform [only=N]] [setup] [chart]
-// [device] [tiny] (threads: OMP_NUM_THREADS). "device" times the path through the execution space's memory, on hosts
-// only when asked.
+// [device [leaves] [only=N]] [tiny] (threads: OMP_NUM_THREADS). "device" times the path through the execution space's
+// memory, on hosts only when asked.
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
@@ -268,33 +268,50 @@ void bench_uniform(const bool tiny, const int only) {
     }
 }
 
-/// The path through the execution space's memory, and the host's beside it where this is the host. Leaves from 40 to
-/// 640 nodes: what suits a host need not suit a device.
-void bench_device(const bool tiny) {
-  std::printf("\n# Device path\npath,leaf_size,%s\n", outcome_header);
-  const int n = tiny ? 1440 : on_host<ExecSpace> ? 23634 : 94536;
-  const int n_uniform = tiny ? 2000 : on_host<ExecSpace> ? 50000 : 1000000;
+/// Sums that each make a tree and sums that share one, by the path through the execution space's memory and, where
+/// this is the host, by the host's beside it. @param leaves  by leaf sizes, too: what suits a host need not suit a
+/// device
+void bench_device(const bool tiny, const bool leaves, const int only) {
+  std::printf("\n# Device path\npath,leaf_size,kept_tree_ms,%s\n", outcome_header);
   struct Shape {
     const char* name;
     std::vector<Vec3> nodes;
     double blob;
   };
-  for (const Shape& shape :
-       {Shape{"straight", make_straight(n), fiber_blob}, Shape{"spiral", make_spiral(n), fiber_blob},
-        Shape{"uniform", make_uniform(n_uniform), 0.1 / std::cbrt(n_uniform)}}) {
+  std::vector<Shape> shapes;
+  for (const int n : {23634, 94536}) {
+    shapes.push_back({"straight", make_straight(tiny ? 1440 : n), fiber_blob});
+    shapes.push_back({"spiral", make_spiral(tiny ? 1440 : n), fiber_blob});
+  }
+  const int n_fibers = tiny ? 10 : 1000;
+  shapes.push_back({"suspension", make_suspension(n_fibers, 20, 9), fiber_blob});
+  for (const int n : {100000, 1000000}) {
+    const int n_nodes = tiny ? 2000 : on_host<ExecSpace> ? n / 10 : n;
+    shapes.push_back({"uniform", make_uniform(n_nodes), 0.1 / std::cbrt(n_nodes)});
+  }
+  for (const Shape& shape : shapes) {
+    if (only > 0 && static_cast<std::size_t>(only) != shape.nodes.size()) continue;
     Case problem(shape.nodes, shape.blob);
-    for (const double tolerance : {1e-3, 1e-4, 1e-6})
-      for (const int leaf_size : {0, 40, 80, 160, 320, 640})
+    for (const double tolerance : {1e-4, 1e-6, 1e-9})
+      for (const int leaf_size : {0, 64, 128, 256, 512})
         for (const KernelPath path : {KernelPath::device, KernelPath::host}) {
-          const bool is_reference = path == KernelPath::host && leaf_size == 0;
-          if (path == KernelPath::host && !is_reference) continue;
-          if (tiny && (leaf_size > 0 || tolerance < 1e-3)) continue;
+          if (path == KernelPath::host && !(on_host<ExecSpace> && leaf_size == 0)) continue;
+          if (leaf_size > 0 && !leaves) continue;
+          if (tiny && tolerance < 1e-4) continue;
+          if (tolerance < 1e-6 && problem.n != 1000000) continue;
           FmmOptions options;
           options.path = path;
           options.tolerance = tolerance;
           options.leaf_size = leaf_size;
-          std::printf("%s,%d,", is_reference ? "host" : "device", leaf_size);
-          print_outcome(shape.name, problem, tolerance, measure(problem, options, tiny ? 1 : 5, problem.n < 200000));
+          const Outcome anew = measure(problem, options, tiny ? 1 : 5, false);
+          FmmMobility kept(viscosity, options);
+          kept.begin_step();
+          const auto seconds = perf::median_seconds(tiny ? 1 : 5, std::vector<std::function<void()>>{[&] {
+                                                      problem.move_nodes();
+                                                      problem.compute(kept);
+                                                    }});
+          std::printf("%s,%d,%.4f,", path == KernelPath::host ? "host" : "device", leaf_size, 1e3 * seconds[0]);
+          print_outcome(shape.name, problem, tolerance, anew);
         }
   }
 }
@@ -397,7 +414,8 @@ int main(int argc, char** argv) {
   for (const std::string& part : parts) std::sscanf(part.c_str(), "only=%d", &only);
   if (asked("uniform")) bench_uniform(tiny, only);
   if (asked("setup")) bench_setup(tiny);
-  if (tiny || std::find(parts.begin(), parts.end(), "device") != parts.end()) bench_device(tiny);
+  const auto has = [&](const char* part) { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
+  if (tiny || has("device")) bench_device(tiny, has("leaves"), only);
   if (asked("chart")) bench_chart(tiny);
   return 0;
 }

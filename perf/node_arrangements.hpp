@@ -18,6 +18,9 @@ double tube_length(int n_nodes);
 /// The same tube coiled to a planar Archimedean spiral whose arms are 0.03 apart.
 std::vector<Vec3> make_spiral(int n_nodes);
 
+/// Straight tubes anywhere in a cube, in any direction: five in a cube of their length. They may cross.
+std::vector<Vec3> make_suspension(int n_fibers, int n_sections, int n_around);
+
 /// Anywhere in the unit cube.
 std::vector<Vec3> make_uniform(int n_nodes);
 

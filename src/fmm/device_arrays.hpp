@@ -37,6 +37,13 @@ struct ScanCount {
   }
 };
 
+/// count(i) <- the counts of 0 .. i - 1, for 0 <= i <= end: entry `end` exists and is overwritten. Waits for nothing.
+template <class Space>
+void scan_in_place(const Space& space, const Kokkos::View<int*, Space>& count, const int end) {
+  Kokkos::parallel_scan("skein::scan_counts", Kokkos::RangePolicy<Space>(space, 0, end + 1),
+                        ScanCount<Space>{count, end, 0});
+}
+
 /// count(i) <- base + the counts of begin .. i - 1, for begin <= i <= end: entry `end` exists and is overwritten.
 /// @return base + all counts; waits for the device
 template <class Space>

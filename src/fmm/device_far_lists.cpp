@@ -1,4 +1,5 @@
 #include "fmm/device_list_source.hpp"
+#include "fmm/fmm_operator_set.hpp"
 
 namespace skein {
 namespace {
@@ -10,7 +11,8 @@ KOKKOS_INLINE_FUNCTION void list_touching(const ListSource<Space>& from, const i
   const Box box = from.boxes(b);
   if (b == 0) touching.add(0);
   if (b == 0) return;
-  for (int k = from.touching_first(box.parent); k < from.touching_first(box.parent + 1); ++k) {
+  const IndexRange near_parent = from.touching_of(box.parent);
+  for (int k = near_parent.first; k < near_parent.first + near_parent.count; ++k) {
     const int a = from.touching(k);
     const Box other = from.boxes(a);
     if (other.is_leaf() && touch(box, other)) touching.add(a);
@@ -31,7 +33,8 @@ KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b,
   const Box box = from.boxes(b);
   if (b == 0 || box.targets.count == 0) return;
   const bool is_cheap = box.is_leaf() && box.targets.count < min_sources_for_expansion;
-  for (int k = from.touching_first(box.parent); k < from.touching_first(box.parent + 1); ++k) {
+  const IndexRange near_parent = from.touching_of(box.parent);
+  for (int k = near_parent.first; k < near_parent.first + near_parent.count; ++k) {
     const int a = from.touching(k);
     const Box other = from.boxes(a);
     if (other.is_leaf() && other.sources.count > 0 && !touch(box, other)) {
@@ -50,34 +53,21 @@ KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b,
 /// Level by level, because a box asks its parent's list.
 template <class Space>
 void build_touching(const Space& space, DeviceOctree<Space>& tree) {
-  auto& lists = tree.touching;
-  const auto n_first = static_cast<std::size_t>(tree.n_boxes()) + 1;
-  require_extent(lists.first, n_first, "skein::device_far_lists::touching_first");
-  require_extent(tree.count, n_first, "skein::device_far_lists::box_count");
-  Kokkos::deep_copy(space, lists.first, 0);
-  lists.n_entries = 0;
-  const auto count = tree.count;
+  const auto n_boxes = static_cast<std::size_t>(tree.n_boxes());
+  require_extent(tree.touching, most_touching * n_boxes, "skein::device_far_lists::touching");
+  require_extent(tree.n_touching, n_boxes, "skein::device_far_lists::n_touching");
+  const ListSource<Space> from(tree);
+  const auto touching = tree.touching, n_touching = tree.n_touching;
   for (int level = 0; level < tree.n_levels(); ++level) {
     const IndexRange boxes = tree.level(level);
-    for (const bool fills : {false, true}) {
-      const ListSource<Space> from(tree);
-      const auto first = lists.first;
-      const auto entries = lists.entries;
-      Kokkos::parallel_for(
-          "skein::list_touching", Kokkos::RangePolicy<Space>(space, 0, boxes.count), KOKKOS_LAMBDA(const int k) {
-            const int b = boxes.first + k;
-            EntrySink<int> sink;
-            if (fills) sink.to = entries.data() + count(k);
-            list_touching(from, b, sink);
-            if (fills)
-              first(b + 1) = count(k + 1);
-            else
-              count(k) = sink.n;
-          });
-      if (fills) continue;
-      lists.n_entries = scan_counts(space, tree.count, 0, boxes.count, lists.n_entries);
-      extend(lists.entries, static_cast<std::size_t>(lists.n_entries));
-    }
+    Kokkos::parallel_for(
+        "skein::list_touching", Kokkos::RangePolicy<Space>(space, 0, boxes.count), KOKKOS_LAMBDA(const int k) {
+          const int b = boxes.first + k;
+          EntrySink<int> sink;
+          sink.to = touching.data() + most_touching * b;
+          list_touching(from, b, sink);
+          n_touching(b) = sink.n;
+        });
   }
 }
 
@@ -108,9 +98,7 @@ void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sour
           }
         });
     if (fills) continue;
-    place_lists(space, tree.v_list, n_boxes, "skein::device_far_lists::v_list");
-    place_lists(space, tree.x_list, n_boxes, "skein::device_far_lists::x_list");
-    place_lists(space, tree.x_direct, n_boxes, "skein::device_far_lists::x_direct");
+    place_lists(space, tree, n_boxes, "skein::device_far_lists::list", tree.v_list, tree.x_list, tree.x_direct);
   }
   const auto pairs = tree.v_list.entries;
   Kokkos::parallel_reduce(
@@ -119,12 +107,38 @@ void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sour
       Kokkos::BOr<std::uint64_t>(tree.transfers));
 }
 
+/// Far pairs that share an operator stand together, in the order of the lists.
+template <class Space>
+void sort_far_pairs(const Space& space, DeviceOctree<Space>& tree) {
+  constexpr int n_bits = 11;  // of a level and an index
+  static_assert((max_key_depth + 1) * n_transfers <= 1 << n_bits);
+  const int n = tree.v_list.n_entries;
+  tree.far.require(static_cast<std::size_t>(n));
+  require_extent(tree.far_place, static_cast<std::size_t>(n), "skein::device_far_lists::far_place");
+  const auto boxes = tree.boxes;
+  const auto pairs = tree.v_list.entries;
+  const auto key = tree.far.key;
+  const auto unsorted = tree.far.order;
+  Kokkos::parallel_for(
+      "skein::make_transfer_keys", Kokkos::RangePolicy<Space>(space, 0, n), KOKKOS_LAMBDA(const int k) {
+        const FarPair pair = pairs(k);
+        key(k) = static_cast<std::uint64_t>(n_transfers * boxes(pair.target).level + transfer_index(pair.transfer));
+        unsorted(k) = k;
+      });
+  sort_on_device(space, tree.far, n, n_bits, tree.sort_memory);
+  const auto order = tree.far.order, place = tree.far_place;
+  Kokkos::parallel_for(
+      "skein::place_far_pairs", Kokkos::RangePolicy<Space>(space, 0, n),
+      KOKKOS_LAMBDA(const int i) { place(order(i)) = i; });
+}
+
 }  // namespace
 
 template <class Space>
 void build_far_lists(const Space& space, DeviceOctree<Space>& tree, const OctreeRules& rules) {
   build_touching(space, tree);
   build_far(space, tree, rules.min_sources_for_expansion);
+  sort_far_pairs(space, tree);
 }
 
 #define SKEIN_INSTANTIATE(S) template void build_far_lists<S>(const S&, DeviceOctree<S>&, const OctreeRules&);

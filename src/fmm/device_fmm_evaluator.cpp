@@ -2,7 +2,15 @@
 
 #include <skein/arrays/combination.hpp>
 
+#include <algorithm>
+
 namespace skein {
+namespace {
+
+/// Room for the products of far pairs: every time that it is full, all lists are gone through.
+constexpr std::size_t most_product_bytes = std::size_t{1} << 29;
+
+}  // namespace
 
 bool DeviceFmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
   nodes_ = {sources.position, sources.force, target, sources.blob};
@@ -21,9 +29,7 @@ bool DeviceFmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chose
   statistics.tree_seconds = watch.lap();
   // Every pair is met from both sides, by the direct sum on a device, too.
   if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, false, options) > 1.0) return false;
-  if (own_velocity_.extent(0) == nodes_.target.extent(0))
-    Kokkos::deep_copy(space_, own_velocity_, 0.0);
-  else
+  if (own_velocity_.extent(0) != nodes_.target.extent(0))
     own_velocity_ = Vectors("skein::device_fmm_evaluator::fmm_velocity", nodes_.target.extent(0));
   sort_nodes(space_, tree_, nodes_, regularized_stokeslet::scale(viscosity), sorted_);
   space_.fence();
@@ -38,12 +44,14 @@ bool DeviceFmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chose
 template <class Real>
 void DeviceFmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, InPrecision<Real>& in) {
   LapTimer watch;
-  const auto levels = in.operators.require(in.store.require(options.far_field, plan, blobs_.largest, tree_));
+  const auto& levels =
+      in.operators.require(in.store.require(options.far_field, plan, blobs_.largest, tree_), tree_.transfers_met());
   statistics.operators_seconds = watch.lap();
   with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, in.coefficients); });
-  statistics.memory_bytes = in.store.bytes() + in.operators.bytes() +
-                            2.0 * sizeof(Real) * static_cast<double>(in.coefficients.source.size()) + sorted_.bytes() +
-                            tree_.bytes();
+  statistics.memory_bytes =
+      in.store.bytes() + in.operators.bytes() +
+      sizeof(Real) * static_cast<double>(2 * in.coefficients.source.size() + in.coefficients.products.size()) +
+      sorted_.bytes() + tree_.bytes();
 }
 
 template <class Real, class Field>
@@ -56,12 +64,16 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
       static_cast<std::size_t>(tree_.n_boxes()) * static_cast<std::size_t>(coefficients.box_size);
   require_extent(coefficients.source, needed, "skein::device_fmm_evaluator::source_coefficients");
   require_extent(coefficients.target, needed, "skein::device_fmm_evaluator::target_coefficients");
+  const auto box_size = static_cast<std::size_t>(std::max(1, coefficients.box_size));
+  const std::size_t n_products = std::clamp(most_product_bytes / (sizeof(Real) * box_size), std::size_t{1},
+                                            static_cast<std::size_t>(std::max(1, tree_.v_list.n_entries)));
+  require_extent(coefficients.products, n_products * box_size, "skein::device_fmm_evaluator::products");
   compute_coefficients_by_teams<ExecSpace, Real, Field>(space_, tree_, sorted_, field, levels, coefficients,
                                                         team_size_);
   space_.fence();
   statistics.far_seconds = watch.lap();
   with_near_precision<Real>(plan, [&](auto near) {
-    add_leaf_velocities_by_teams<ExecSpace, decltype(near), Real, Field>(space_, tree_, sorted_, field, levels,
+    sum_leaf_velocities_by_teams<ExecSpace, decltype(near), Real, Field>(space_, tree_, sorted_, field, levels,
                                                                          coefficients, own_velocity_, team_size_);
   });
   space_.fence();

@@ -50,7 +50,8 @@ template <class Space>
 KOKKOS_INLINE_FUNCTION void list_near(const ListSource<Space>& from, const int leaf,
                                       const int min_sources_for_expansion, RunSink& near, EntrySink<int>& fine) {
   const Box box = from.boxes(leaf);
-  for (int k = from.touching_first(leaf); k < from.touching_first(leaf + 1); ++k) {
+  const IndexRange around = from.touching_of(leaf);
+  for (int k = around.first; k < around.first + around.count; ++k) {
     const int root = from.touching(k);
     int b = root;
     do {
@@ -138,9 +139,31 @@ void build_near(const Space& space, DeviceOctree<Space>& tree, const int min_sou
         n_pairs);
     tree.n_near_pairs = static_cast<double>(n_pairs);
     if (fills) continue;
-    place_lists(space, tree.u_list, n_leaves, "skein::device_near_lists::u_list");
-    place_lists(space, tree.w_list, n_leaves, "skein::device_near_lists::w_list");
+    place_lists(space, tree, n_leaves, "skein::device_near_lists::list", tree.u_list, tree.w_list);
   }
+}
+
+template <class Space>
+void list_leaf_parts(const Space& space, DeviceOctree<Space>& tree) {
+  const int n_leaves = tree.n_target_leaves;
+  require_extent(tree.part_first, static_cast<std::size_t>(n_leaves) + 1, "skein::device_near_lists::part_first");
+  const auto first = tree.part_first;
+  const auto boxes = tree.boxes;
+  const auto leaves = tree.target_leaves;
+  Kokkos::parallel_for(
+      "skein::count_leaf_parts", Kokkos::RangePolicy<Space>(space, 0, n_leaves),
+      KOKKOS_LAMBDA(const int i) { first(i) = math::ceil_div(boxes(leaves(i)).targets.count, part_targets); });
+  tree.n_parts = scan_counts(space, first, 0, n_leaves, 0);
+  require_extent(tree.part_leaf, static_cast<std::size_t>(tree.n_parts), "skein::device_near_lists::part_leaf");
+  require_extent(tree.part_place, static_cast<std::size_t>(tree.n_parts), "skein::device_near_lists::part_place");
+  const auto leaf = tree.part_leaf, place = tree.part_place;
+  Kokkos::parallel_for(
+      "skein::list_leaf_parts", Kokkos::RangePolicy<Space>(space, 0, n_leaves), KOKKOS_LAMBDA(const int i) {
+        for (int k = first(i); k < first(i + 1); ++k) {
+          leaf(k) = i;
+          place(k) = k - first(i);
+        }
+      });
 }
 
 }  // namespace
@@ -149,6 +172,7 @@ template <class Space>
 void build_near_lists(const Space& space, DeviceOctree<Space>& tree, const OctreeRules& rules) {
   find_target_leaves(space, tree);
   build_near(space, tree, rules.min_sources_for_expansion);
+  list_leaf_parts(space, tree);
 }
 
 #define SKEIN_INSTANTIATE(S) template void build_near_lists<S>(const S&, DeviceOctree<S>&, const OctreeRules&);

@@ -17,18 +17,18 @@ using Nodes = ConstVectorView<Space>;
 template <class Space>
 void widen(const Space& space, const Nodes<Space>& nodes, NodeBounds& bounds) {
   const Kokkos::RangePolicy<Space> range(space, 0, nodes.extent_int(0));
+  using Extremes = Kokkos::MinMax<double>;
   for (int c = 0; c < 3; ++c) {
-    double low = 0.0, high = 0.0;
+    typename Extremes::value_type found;
     Kokkos::parallel_reduce(
-        "skein::find_lowest", range,
-        KOKKOS_LAMBDA(const int i, double& least) { least = nodes(i, c) < least ? nodes(i, c) : least; },
-        Kokkos::Min<double>(low));
-    Kokkos::parallel_reduce(
-        "skein::find_highest", range,
-        KOKKOS_LAMBDA(const int i, double& most) { most = nodes(i, c) > most ? nodes(i, c) : most; },
-        Kokkos::Max<double>(high));
-    bounds.low[c] = std::min(bounds.low[c], low);
-    bounds.high[c] = std::max(bounds.high[c], high);
+        "skein::find_bounds", range,
+        KOKKOS_LAMBDA(const int i, typename Extremes::value_type& extremes) {
+          if (nodes(i, c) < extremes.min_val) extremes.min_val = nodes(i, c);
+          if (nodes(i, c) > extremes.max_val) extremes.max_val = nodes(i, c);
+        },
+        Extremes(found));
+    bounds.low[c] = std::min(bounds.low[c], found.min_val);
+    bounds.high[c] = std::max(bounds.high[c], found.max_val);
   }
 }
 
@@ -226,10 +226,12 @@ bool DeviceOctree<Space>::still_fits(const Space& space, const ConstVectorView<S
 template <class Space>
 double DeviceOctree<Space>::bytes() const {
   const double n_ints =
-      static_cast<double>(target_leaves.extent(0) + near_end.extent(0) + count.extent(0) + sort_memory.place.extent(0));
-  return sources.bytes() + targets.bytes() + sort_memory.spare.bytes() + 4.0 * n_ints +
+      static_cast<double>(target_leaves.extent(0) + near_end.extent(0) + count.extent(0) + sort_memory.place.extent(0) +
+                          part_leaf.extent(0) + part_place.extent(0) + part_first.extent(0) + far_place.extent(0) +
+                          touching.extent(0) + n_touching.extent(0));
+  return sources.bytes() + targets.bytes() + sort_memory.spare.bytes() + 4.0 * n_ints + far.bytes() +
          static_cast<double>(boxes.extent(0) * sizeof(Box)) + u_list.bytes() + w_list.bytes() + v_list.bytes() +
-         x_list.bytes() + touching.bytes() + x_direct.bytes();
+         x_list.bytes() + x_direct.bytes();
 }
 
 #define SKEIN_INSTANTIATE(S)                                                                                       \

@@ -8,6 +8,9 @@
 
 namespace skein {
 
+inline constexpr int most_touching = 27;  ///< boxes, itself among them
+inline constexpr int part_targets = 128;  ///< of a leaf, that a team takes at once
+
 /// The tree that Octree builds on hosts, box by box, in the memory of any execution space: only counts, bounds and a
 /// sample's statistics pass through the host. Lists hold what Octree's hold; W lists in another order. Memory is kept
 /// between builds, so arrays may be longer than what is in use.
@@ -44,16 +47,25 @@ struct DeviceOctree {
   Kokkos::View<int*, Space> near_end;
   DeviceLists<int, Space> w_list;      ///< W, per target leaf: boxes
   DeviceLists<FarPair, Space> v_list;  ///< V, per box
-  DeviceLists<int, Space> x_list;      ///< X, per box: leaves
-  std::uint64_t transfers = 0;         ///< bit i: far pairs with transfer_index i exist
-  double largest_leaf = 0.0;           ///< half-width of the largest leaf with targets, length
-  double n_near_pairs = 0.0;           ///< of nodes
+  KeyedOrder<Space> far;  ///< V pairs by operator: places in v_list.entries, key: n_transfers level + index
+  Kokkos::View<int*, Space> far_place;  ///< of v_list.entries in that order
+  DeviceLists<int, Space> x_list;       ///< X, per box: leaves
+  /// Parts of the target leaves, of part_targets targets at most: the leaf, and its parts before this one.
+  Kokkos::View<int*, Space> part_leaf, part_place;
+  int n_parts = 0;
+  std::uint64_t transfers = 0;  ///< bit i: far pairs with transfer_index i exist
+  double largest_leaf = 0.0;    ///< half-width of the largest leaf with targets, length
+  double n_near_pairs = 0.0;    ///< of nodes
 
   // What the build needs besides.
   KeyedOrder<Space> sources, targets;
   SortSpace<Space> sort_memory;
-  Kokkos::View<int*, Space> count;   ///< per box
-  DeviceLists<int, Space> touching;  ///< per box: boxes of its level that touch it, and coarser leaves that do
+  Kokkos::View<int*, Space> count;       ///< per box
+  Kokkos::View<int*, Space> part_first;  ///< per target leaf
+  /// Per box: boxes of its level that touch it, and coarser leaves that do. None shares a cell of that level with
+  /// another, so that there are most_touching at most.
+  Kokkos::View<int*, Space> touching, n_touching;
+  Kokkos::View<int*, Space> totals;  ///< of counts, on their way to the host
   DeviceLists<int, Space> x_direct;  ///< what would be X pairs of leaves with too few targets for an expansion
 };
 

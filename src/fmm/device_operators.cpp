@@ -52,7 +52,14 @@ DeviceOperatorSet<Real> DeviceOperators<Space, Real>::copy_set(const OperatorSet
 }
 
 template <class Space, class Real>
-DeviceLevels<Space, Real> DeviceOperators<Space, Real>::require(const std::vector<const OperatorSet<Real>*>& levels) {
+const DeviceLevels<Space, Real>& DeviceOperators<Space, Real>::require(
+    const std::vector<const OperatorSet<Real>*>& levels, const std::uint64_t transfers) {
+  std::vector<const void*> names;
+  for (const auto* set : levels) {
+    names.push_back(set);
+    names.push_back(set == nullptr ? nullptr : set->surface.data());
+  }
+  if (names == names_ && (transfers & ~transfers_) == 0) return levels_;
   Copies used;
   DeviceLevels<Space, Real> result;
   const Kokkos::View<DeviceOperatorSet<Real>*, Space> sets("skein::device_operators::operator_sets", levels.size());
@@ -62,11 +69,16 @@ DeviceLevels<Space, Real> DeviceOperators<Space, Real>::require(const std::vecto
     host(level) = copy_set(*levels[level], used);
     result.n_padded = host(level).n_padded;
     result.max_rank_padded = math::larger(result.max_rank_padded, host(level).rank_padded);
+    for (const DeviceMatrix<Real>& first : host(level).transfer_first)
+      result.max_middle = math::larger(result.max_middle, first.n_rows);
   }
   Kokkos::deep_copy(sets, host);
   result.sets = sets;
   copies_ = std::move(used);
-  return result;
+  names_ = std::move(names);
+  transfers_ = transfers;
+  levels_ = result;
+  return levels_;
 }
 
 template <class Space, class Real>

@@ -2,6 +2,7 @@
 
 #include "fmm/fmm_operator_set.hpp"
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -37,6 +38,7 @@ struct DeviceLevels {
   Kokkos::View<const DeviceOperatorSet<Real>*, Space> sets;
   int n_padded = 0;         ///< the same at all levels
   int max_rank_padded = 0;  ///< of all levels
+  int max_middle = 0;       ///< numbers of a column between two thin factors, of all transfers
 };
 
 /// Copies of operators in a space's memory: each is copied when it is first met, and dropped when a call does not ask
@@ -44,8 +46,11 @@ struct DeviceLevels {
 template <class Space, class Real>
 class DeviceOperators {
  public:
-  /// @param levels  of each level of the tree; null where there are none
-  DeviceLevels<Space, Real> require(const std::vector<const OperatorSet<Real>*>& levels);
+  /// @param levels     of each level of the tree; null where there are none
+  /// @param transfers  bit i: transfers with index i are needed; what was copied for the call before serves again where
+  ///                   it has them
+  const DeviceLevels<Space, Real>& require(const std::vector<const OperatorSet<Real>*>& levels,
+                                           std::uint64_t transfers);
   double bytes() const;
 
  private:
@@ -61,6 +66,10 @@ class DeviceOperators {
   DeviceOperatorSet<Real> copy_set(const OperatorSet<Real>& set, Copies& used) const;
 
   Copies copies_;
+  // Of the last call. A surface's array, which a copy keeps, tells a set from one that was made anew in its place.
+  std::vector<const void*> names_;
+  std::uint64_t transfers_ = 0;
+  DeviceLevels<Space, Real> levels_;
 };
 
 }  // namespace skein

@@ -8,6 +8,7 @@ namespace {
 constexpr int digit_bits = 4;
 constexpr int n_digits = 1 << digit_bits;
 constexpr int chunk_keys = 32;  // of a thread
+constexpr int tile_keys = 128;  // that a team compares its own with at once
 
 /// One stable pass by one digit: threads count the digits of their chunks, a scan over (digit, chunk) gives each chunk
 /// its places.
@@ -26,7 +27,7 @@ void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrd
           ++count[static_cast<int>(from_key(i) >> shift) & (n_digits - 1)];
         for (int digit = 0; digit < n_digits; ++digit) places(digit * n_chunks + chunk) = count[digit];
       });
-  scan_counts(space, place, 0, n_digits * n_chunks, 0);
+  scan_in_place(space, place, n_digits * n_chunks);
   Kokkos::parallel_for(
       "skein::sort_on_device_move", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
         int next[n_digits];
@@ -39,6 +40,43 @@ void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrd
           to_order(at) = from_order(i);
         }
       });
+}
+
+/// Where each of a team's keys goes: behind those that are smaller, or equal and before it.
+template <class Space>
+struct FindPlaces {
+  using Policy = Kokkos::TeamPolicy<Space>;
+  using Team = typename Policy::member_type;
+  using Tile = Kokkos::View<std::uint64_t*, typename Space::scratch_memory_space, Kokkos::MemoryUnmanaged>;
+
+  KeyedOrder<Space> from, to;
+  int n;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team& team) const {
+    const Tile tile(team.team_scratch(0), tile_keys);
+    const int own = team.league_rank() * team.team_size() + team.team_rank();
+    const std::uint64_t key = from.key(math::smaller(own, n - 1));
+    int place = 0;
+    for (int first = 0; first < n; first += tile_keys) {
+      const int count = math::smaller(tile_keys, n - first);
+      team.team_barrier();  // the tile may be overwritten
+      for (int k = team.team_rank(); k < count; k += team.team_size()) tile(k) = from.key(first + k);
+      team.team_barrier();  // the tile is complete
+      for (int k = 0; k < count; ++k) place += tile(k) < key || (tile(k) == key && first + k < own);
+    }
+    if (own >= n) return;
+    to.key(place) = key;
+    to.order(place) = from.order(own);
+  }
+};
+
+template <class Space>
+void sort_few(const Space& space, const KeyedOrder<Space>& from, const KeyedOrder<Space>& to, const int n) {
+  using Find = FindPlaces<Space>;
+  constexpr int team_size = on_host<Space> ? 1 : 64;
+  typename Find::Policy policy(space, math::ceil_div(n, team_size), team_size);
+  policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(Find::Tile::shmem_size(tile_keys))));
+  Kokkos::parallel_for("skein::sort_few", policy, Find{from, to, n});
 }
 
 /// Fibers come in order, and nodes move little.
@@ -56,9 +94,14 @@ bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n)
 
 template <class Space>
 void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, const int n, const int n_bits,
-                    SortSpace<Space>& memory) {
+                    SortSpace<Space>& memory, const int few) {
   if (is_sorted(space, sorted, n)) return;
   memory.spare.require(static_cast<std::size_t>(n));
+  if (n <= few) {
+    sort_few(space, sorted, memory.spare, n);
+    std::swap(sorted, memory.spare);
+    return;
+  }
   require_extent(memory.place, static_cast<std::size_t>(n_digits * math::ceil_div(n, chunk_keys) + 1),
                  "skein::device_sort::sort_places");
   for (int shift = 0; shift < n_bits; shift += digit_bits) {
@@ -67,7 +110,7 @@ void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, const int n, 
   }
 }
 
-#define SKEIN_INSTANTIATE(S) template void sort_on_device<S>(const S&, KeyedOrder<S>&, int, int, SortSpace<S>&);
+#define SKEIN_INSTANTIATE(S) template void sort_on_device<S>(const S&, KeyedOrder<S>&, int, int, SortSpace<S>&, int);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -26,9 +26,15 @@ struct SortSpace {
   Kokkos::View<int*, Space> place;
 };
 
+/// So many keys are sooner compared with each other, in one launch, than sorted digit by digit; on hosts never.
+template <class Space>
+inline constexpr int few_keys = on_host<Space> ? 0 : 12288;
+
 /// The first n of `sorted` by key, ascending and stable: the same unique result as sort_by_key, in the memory of any
 /// execution space. Arrays may change places with the spare ones. Waits for the device.
+/// @param few  up to so many keys are compared with each other; the result does not depend on it
 template <class Space>
-void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, int n, int n_bits, SortSpace<Space>& memory);
+void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, int n, int n_bits, SortSpace<Space>& memory,
+                    int few = few_keys<Space>);
 
 }  // namespace skein

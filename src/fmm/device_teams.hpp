@@ -2,6 +2,7 @@
 
 #include "fmm/device_nodes.hpp"
 #include "fmm/device_operators.hpp"
+#include "fmm/device_products.hpp"
 #include "fmm/laplace.hpp"
 
 // What the teams of the device's passes share. Every number is the work of one thread, in an order that no size of a
@@ -15,18 +16,25 @@ inline constexpr int team_tile = 128;  ///< sources that a team keeps at once
 template <class Space>
 inline constexpr int usual_team_size = on_host<Space> ? 1 : 128;
 
+/// The work of teams whose arguments go along with the launch, however many they are: a copy apart would wait for the
+/// launch before.
 /// @param n_bytes  scratch memory of a team
 template <class Space>
-Kokkos::TeamPolicy<Space> make_team_policy(const Space& space, const int n_teams, const int team_size,
-                                           const int scratch_level, const std::size_t n_bytes) {
+auto make_team_policy(const Space& space, const int n_teams, const int team_size, const int scratch_level,
+                      const std::size_t n_bytes) {
   using Policy = Kokkos::TeamPolicy<Space>;
   Policy policy = team_size > 0 ? Policy(space, n_teams, team_size) : Policy(space, n_teams, Kokkos::AUTO);
   policy.set_scratch_size(scratch_level, Kokkos::PerTeam(static_cast<int>(n_bytes)));
-  return policy;
+  return Kokkos::Experimental::require(policy, Kokkos::Experimental::WorkItemProperty::HintLightWeight);
 }
 
-/// The fast memory where it suffices for several teams at once, else the large one.
-inline int choose_scratch_level(const std::size_t n_bytes) { return n_bytes <= 32768 ? 0 : 1; }
+/// What a team surely gets of the fast memory, and what leaves room for several teams at once; bytes.
+inline constexpr std::size_t sure_scratch = 45000, shared_scratch = 32768;
+
+/// The fast memory up to a limit, else the large one.
+inline int choose_scratch_level(const std::size_t n_bytes, const std::size_t limit = shared_scratch) {
+  return n_bytes <= limit ? 0 : 1;
+}
 
 template <class Space, class Entry>
 using TeamArray = Kokkos::View<Entry*, typename Space::scratch_memory_space, Kokkos::MemoryUnmanaged>;
@@ -71,15 +79,15 @@ template <int n_columns, class Team, class Real, class Write>
 KOKKOS_INLINE_FUNCTION void team_multiply(const Team& team, const DeviceMatrix<Real>& a, const Real* b,
                                           const int b_stride, const Write& write) {
 #if SKEIN_ON_DEVICE
-  constexpr int at_once = 1;
+  multiply_by_thread<n_columns, 4>(a, team.team_rank(), team.team_size(), StridedColumns<Real>{b, b_stride}, write);
 #else
   constexpr int at_once = 8;  // rows in vector registers
-#endif
   int row = at_once * team.team_rank();
   for (; row + at_once <= a.n_rows; row += at_once * team.team_size())
     multiply_rows<at_once, n_columns>(a, row, b, b_stride, write);
   const int last = math::smaller(a.n_rows, row + at_once);  // of this thread's cut block, if it has one
   for (; row < last; ++row) multiply_rows<1, n_columns>(a, row, b, b_stride, write);
+#endif
 }
 
 /// column <- from with the signs of a reflection. The fourth column of a field that shifts (psi, measured from the
@@ -126,12 +134,22 @@ KOKKOS_INLINE_FUNCTION void team_add_potentials(const Team& team, const DeviceNo
       source.blob_squared = static_cast<Real>(blob * blob);
     }
     team.team_barrier();  // the tile is complete
-    for (int p = team.team_rank(); p < operators.n_padded; p += team.team_size()) {
-      const Real x = size * operators.surface_at(p, 0), y = size * operators.surface_at(p, 1),
-                 z = size * operators.surface_at(p, 2);
-      Real sum[Field::n_planes] = {};
-      for (int s = 0; s < count; ++s) field.add_source(x, y, z, tile[s], sum);
-      for (int plane = 0; plane < Field::n_planes; ++plane) potential[plane * operators.n_padded + p] += sum[plane];
+    // Two points to a thread: what it reads of a source serves both.
+    const int n = operators.n_padded, half = math::ceil_div(n, 2);
+    for (int p = team.team_rank(); p < half; p += team.team_size()) {
+      const int other = math::smaller(p + half, n - 1);
+      const Real x[2] = {size * operators.surface_at(p, 0), size * operators.surface_at(other, 0)};
+      const Real y[2] = {size * operators.surface_at(p, 1), size * operators.surface_at(other, 1)};
+      const Real z[2] = {size * operators.surface_at(p, 2), size * operators.surface_at(other, 2)};
+      Real sum[2][Field::n_planes] = {};
+      for (int s = 0; s < count; ++s) {
+        const FarSource<Real> source = tile[s];
+        for (int k = 0; k < 2; ++k) field.add_source(x[k], y[k], z[k], source, sum[k]);
+      }
+      for (int plane = 0; plane < Field::n_planes; ++plane) {
+        potential[plane * n + p] += sum[0][plane];
+        if (p + half < n) potential[plane * n + other] += sum[1][plane];
+      }
     }
   }
 }

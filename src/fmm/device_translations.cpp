@@ -1,27 +1,9 @@
 #include "fmm/device_translations.hpp"
 
+#include "fmm/device_transfers.hpp"
+
 namespace skein {
 namespace {
-
-/// What a pass needs, by value for kernels.
-template <class Space, class Real, class Field>
-struct Passes {
-  OctreeCube cube;
-  Kokkos::View<const Box*, Space> boxes;
-  DeviceLists<FarPair, Space> v_list;
-  DeviceLists<int, Space> x_list;
-  DeviceNodes<Space> nodes;
-  Field field;
-  DeviceLevels<Space, Real> levels;
-  DeviceCoefficients<Space, Real> coefficients;
-
-  KOKKOS_INLINE_FUNCTION Real* source_of(const int b) const {
-    return coefficients.source.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
-  }
-  KOKKOS_INLINE_FUNCTION Real* target_of(const int b) const {
-    return coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
-  }
-};
 
 template <class Space, class Real, class Field>
 struct PotentialScratch {
@@ -61,14 +43,32 @@ void run_p2m(const Space& space, const Passes<Space, Real, Field>& passes, const
       });
 }
 
-/// Children to parents of one level (M2M).
+/// parent += sign of each child times its columns of the product, child by child.
+template <class Space, class Real, class Field>
+struct AddChildren {
+  const Passes<Space, Real, Field>& passes;
+  const DeviceOperatorSet<Real>& operators;
+  int parent, first_child, n_children;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int row, const Real (&sum)[ColumnGroup<Real>::size]) const {
+    Real* const to = passes.source_of(parent) + row;
+    for (int k = 0; k < n_children; ++k) {
+      const Real sign = operators.sign_of(7 & ~passes.boxes(first_child + k).octant)[row];
+      for (int c = 0; c < Field::n_columns; ++c)
+        to[c * passes.coefficients.stride] += sign * sum[k * Field::n_columns + c];
+    }
+  }
+};
+
+/// Children to parents of one level (M2M), a few children at once.
 template <class Space, class Real, class Field>
 void run_m2m(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange parents,
              const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
+  using Columns = ColumnGroup<Real>;
+  constexpr int at_once = Columns::size / Field::n_columns;
   const int stride = passes.coefficients.stride;
-  const std::size_t n_bytes =
-      TeamArray<Space, Real>::shmem_size(static_cast<std::size_t>(passes.coefficients.box_size));
+  const std::size_t n_bytes = TeamArray<Space, Columns>::shmem_size(static_cast<std::size_t>(stride));
   const int scratch_level = choose_scratch_level(n_bytes);
   Kokkos::parallel_for(
       "skein::run_m2m", make_team_policy(space, parents.count, team_size, scratch_level, n_bytes),
@@ -76,68 +76,56 @@ void run_m2m(const Space& space, const Passes<Space, Real, Field>& passes, const
         const int p = parents.first + team.league_rank();
         const Box parent = passes.boxes(p);
         if (parent.is_leaf() || parent.sources.count == 0) return;
-        const TeamArray<Space, Real> in(team.team_scratch(scratch_level), passes.coefficients.box_size);
+        const TeamArray<Space, Columns> in(team.team_scratch(scratch_level), stride);
         const DeviceOperatorSet<Real>& own = passes.levels.sets(parent.level);
         const DeviceOperatorSet<Real>& below = passes.levels.sets(parent.level + 1);
-        for (int child = parent.first_child; child < parent.first_child + parent.n_children; ++child) {
-          const Box& box = passes.boxes(child);
-          if (box.sources.count == 0) continue;
-          // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
-          Real shift[3];
-          for (int c = 0; c < 3; ++c) shift[c] = Real(0.5) * Real(child_side(box.octant, c));
-          const int reflected = 7 & ~box.octant;
+        const int end = parent.first_child + parent.n_children;
+        for (int first = parent.first_child; first < end; first += at_once) {
+          const int count = math::smaller(at_once, end - first);
           team.team_barrier();  // `in` may be overwritten
-          team_gather<Field>(team, passes.source_of(child), stride, own.to_parent.n_columns, below.sign_of(reflected),
-                             Real(0.5), shift, in.data(), stride);
+          for (int i = team.team_rank(); i < own.to_parent.n_columns; i += team.team_size()) {
+            Columns group{};
+            for (int k = 0; k < count; ++k) {
+              const Box& box = passes.boxes(first + k);
+              if (box.sources.count == 0) continue;
+              const Real* const from = passes.source_of(first + k) + i;
+              const Real sign = below.sign_of(7 & ~box.octant)[i];
+              Real* const column = group.value + k * Field::n_columns;
+              for (int c = 0; c < Field::n_columns; ++c) column[c] = sign * from[c * stride];
+              // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
+              if constexpr (Field::shifts) {
+                Real shifted = Real(0.5) * from[3 * stride];
+                for (int c = 0; c < 3; ++c) shifted += Real(0.5) * Real(child_side(box.octant, c)) * from[c * stride];
+                column[3] = sign * shifted;
+              }
+            }
+            in(i) = group;
+          }
           team.team_barrier();  // `in` is complete
-          team_multiply<Field::n_columns>(team, own.to_parent, in.data(), stride,
-                                          AddProduct<Real>{passes.source_of(p), stride, own.sign_of(reflected)});
+          multiply_by_thread<Columns::size, sizeof(Real) == 8 ? 2 : 4>(
+              own.to_parent, team.team_rank(), team.team_size(), GroupedColumns<Real>{in.data()},
+              AddChildren<Space, Real, Field>{passes, own, p, first, count});
         }
       });
 }
 
-/// Across the V lists (M2L).
+/// Across the V lists (M2L), as many far pairs at once as there is room for their products.
 template <class Space, class Real, class Field>
 void run_m2l(const Space& space, const Passes<Space, Real, Field>& passes, const IndexRange boxes,
              const int team_size) {
-  using Team = typename Kokkos::TeamPolicy<Space>::member_type;
-  const int stride = passes.coefficients.stride;
-  const std::size_t n_bytes =
-      2 * TeamArray<Space, Real>::shmem_size(static_cast<std::size_t>(passes.coefficients.box_size));
-  const int scratch_level = choose_scratch_level(n_bytes);
-  Kokkos::parallel_for(
-      "skein::run_m2l", make_team_policy(space, boxes.count, team_size, scratch_level, n_bytes),
-      KOKKOS_LAMBDA(const Team& team) {
-        const int b = boxes.first + team.league_rank();
-        const int first = passes.v_list.first(b), last = passes.v_list.first(b + 1);
-        if (first == last) return;
-        const TeamArray<Space, Real> in(team.team_scratch(scratch_level), passes.coefficients.box_size);
-        const TeamArray<Space, Real> middle(team.team_scratch(scratch_level), passes.coefficients.box_size);
-        const DeviceOperatorSet<Real>& operators = passes.levels.sets(passes.boxes(b).level);
-        for (int k = first; k < last; ++k) {
-          const FarPair pair = passes.v_list.entries(k);
-          const int index = transfer_index(pair.transfer), reflected = reflected_axes(pair.transfer);
-          const DeviceMatrix<Real> last_factor = operators.transfer_last[index];
-          const DeviceMatrix<Real> first_factor = operators.transfer_first[index];
-          const bool is_factored = first_factor.n_columns > 0;
-          Real shift[3];
-          for (int c = 0; c < 3; ++c) shift[c] = Real(2 * pair.transfer[c]);
-          const AddProduct<Real> add{passes.target_of(b), stride, operators.sign_of(reflected)};
-          team.team_barrier();  // `in` may be overwritten
-          team_gather<Field>(team, passes.source_of(pair.source), stride,
-                             is_factored ? first_factor.n_columns : last_factor.n_columns, operators.sign_of(reflected),
-                             Real(1), shift, in.data(), stride);
-          team.team_barrier();  // `in` is complete
-          if (is_factored) {
-            team_multiply<Field::n_columns>(team, first_factor, in.data(), stride,
-                                            StoreProduct<Real>{middle.data(), stride});
-            team.team_barrier();  // `middle` is complete
-            team_multiply<Field::n_columns>(team, last_factor, middle.data(), stride, add);
-          } else {
-            team_multiply<Field::n_columns>(team, last_factor, in.data(), stride, add);
-          }
-        }
-      });
+  const auto& products = passes.coefficients.products;
+  const int n_pairs = passes.v_list.n_entries;
+  const int at_once = static_cast<int>(products.extent(0) / static_cast<std::size_t>(passes.coefficients.box_size));
+  for (int begin = 0; begin < n_pairs; begin += at_once) {
+    const int end = math::smaller(n_pairs, begin + at_once);
+    const TransferProducts<Space, Real, Field> multiply(passes, begin, end, products.data());
+    Kokkos::parallel_for(
+        "skein::run_m2l",
+        make_team_policy(space, multiply.n_teams(), team_size, multiply.scratch_level, multiply.scratch_bytes()),
+        multiply);
+    Kokkos::parallel_for("skein::add_transfers", make_team_policy(space, boxes.count, team_size, 0, 0),
+                         AddTransfers<Space, Real, Field>{passes, boxes.first, begin, end, products.data()});
+  }
 }
 
 /// From the sources of X lists (P2L).
@@ -209,14 +197,15 @@ void compute_coefficients_by_teams(const Space& space, const DeviceOctree<Space>
   Kokkos::deep_copy(space, coefficients.source, Real(0));
   Kokkos::deep_copy(space, coefficients.target, Real(0));
   if (tree.n_levels() <= first_far_level) return;
-  const Passes<Space, Real, Field> passes{tree.cube, tree.boxes, tree.v_list, tree.x_list,
-                                          nodes,     field,      levels,      coefficients};
+  const Passes<Space, Real, Field> passes{tree.cube,      tree.boxes,     tree.v_list, tree.far.key,
+                                          tree.far.order, tree.far_place, tree.x_list, nodes,
+                                          field,          levels,         coefficients};
   const int first = tree.level(first_far_level).first;
   const IndexRange boxes{first, tree.n_boxes() - first};
   run_p2m(space, passes, boxes, team_size);
   for (int level = tree.n_levels() - 2; level >= first_far_level; --level)
     run_m2m(space, passes, tree.level(level), team_size);
-  run_m2l(space, passes, boxes, team_size);
+  if (tree.v_list.n_entries > 0) run_m2l(space, passes, boxes, team_size);
   if (tree.x_list.n_entries > 0) run_p2l(space, passes, boxes, team_size);
   for (int level = first_far_level + 1; level < tree.n_levels(); ++level)
     run_l2l(space, passes, tree.level(level), team_size);

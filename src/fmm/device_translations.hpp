@@ -8,8 +8,9 @@ namespace skein {
 template <class Space, class Real>
 struct DeviceCoefficients {
   Kokkos::View<Real*, Space> source, target;
-  int stride = 0;    ///< of a column: the largest padded rank of all levels
-  int box_size = 0;  ///< n_columns * stride
+  Kokkos::View<Real*, Space> products;  ///< of far pairs, before they are added
+  int stride = 0;                       ///< of a column: the largest padded rank of all levels
+  int box_size = 0;                     ///< n_columns * stride
 };
 
 /// The passes over the boxes, as compute_coefficients on hosts: a team for every box, levels one after the other. The
@@ -20,9 +21,9 @@ void compute_coefficients_by_teams(const Space& space, const DeviceOctree<Space>
                                    const Field& field, const DeviceLevels<Space, Real>& levels,
                                    const DeviceCoefficients<Space, Real>& coefficients, int team_size);
 
-/// velocity(original index) += near field + far field of the coefficients, a team for every part of a leaf.
+/// velocity(original index) = near field + far field of the coefficients, a team for every part of a leaf.
 template <class Space, class Near, class Real, class Field>
-void add_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>& tree, const DeviceNodes<Space>& nodes,
+void sum_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>& tree, const DeviceNodes<Space>& nodes,
                                   const Field& field, const DeviceLevels<Space, Real>& levels,
                                   const DeviceCoefficients<Space, Real>& coefficients,
                                   const VectorView<Space>& velocity, int team_size);

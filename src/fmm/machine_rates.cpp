@@ -28,23 +28,23 @@ constexpr MachineRates host_rates{
     .least_single_gain = std::numeric_limits<double>::infinity(),
 };
 
-/// Every pair is met from both sides. Direct sums are those of a prototype of kernels/stokeslet_teams.cpp, the rest
-/// fits straight and coiled tubes of 23 634 and 94 536 nodes and cubes of 1e5 and 1e6, at 1e-4, 1e-6 and 1e-9, to
-/// within 1.7. Most of a tree's time is launches and waits, so that small trees do not pay: 60 000 nodes are where a
-/// straight tube's direct sum in single takes 1.3 times as long as the fast multipole method.
+/// Every pair is met from both sides. Rates fit straight and coiled tubes of 23 634 and 94 536 nodes and cubes of 1e5
+/// and 1e6, at 1e-4, 1e-6 and 1e-9, to within 1.4. A tree is taken to serve ten sums of a step. 20 000 nodes are where
+/// the direct sum in single takes as long as the fast multipole method: longer than for a straight tube, less than for
+/// a coil.
 constexpr MachineRates device_rates{
-    .measured_on = "direct sums: NVIDIA H100 80GB, fast multipole method: NVIDIA H200, CUDA 13.0, 26 November 2026",
-    .direct_pair = {0.00182, 0.00096},
-    .symmetric_direct_pair = {0.00182, 0.00096},
+    .measured_on = "NVIDIA H100 80GB, CUDA 13.0, 27 November 2026, by bench_direct and bench_fmm device",
+    .direct_pair = {0.00182, 0.00093},
+    .symmetric_direct_pair = {0.00182, 0.00093},
     .direct_sum = 9e3,
-    .near_pair = {0.0026, 0.0015},
-    .symmetric_near_pair = {0.0026, 0.0015},
-    .surface_pair = {0.015, 0.0077},
-    .product = {3.2e-4, 1.6e-4},
+    .near_pair = {0.0024, 0.00113},
+    .symmetric_near_pair = {0.0024, 0.00113},
+    .surface_pair = {0.006, 0.0026},
+    .product = {1.6e-4, 9e-5},
     .transfer_work = 0.4,
-    .node = 0.7,
-    .tree = 2.4e6,
-    .least_fmm_nodes = 60000.0,
+    .node = 0.2,
+    .tree = 3e5,
+    .least_fmm_nodes = 20000.0,
     .least_leaf_size = 128,
     .least_single_gain = 1.3,
 };

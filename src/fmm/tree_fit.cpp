@@ -10,12 +10,14 @@ struct CountStrays {
   OctreeCube cube;
   TreeNodes<Space> sources, targets;
 
-  SKEIN_INLINE_FUNCTION int strays(const Box& box, const TreeNodes<Space>& nodes, const IndexRange run) const {
+  /// Of a run's nodes, every step-th from the one at `from`.
+  SKEIN_INLINE_FUNCTION int strays(const Box& box, const TreeNodes<Space>& nodes, const IndexRange run, const int from,
+                                   const int step) const {
     const Vec3 center = cube.center(box);
     const double origin[3] = {center.x, center.y, center.z};
     const double reach = (1.0 + leaf_margin) * cube.half_width(box.level);
     int n = 0;
-    for (int i = run.first; i < run.first + run.count; ++i) {
+    for (int i = run.first + from; i < run.first + run.count; i += step) {
       const int node = nodes.order(i);
       bool is_near = true;
       for (int c = 0; c < 3; ++c) {
@@ -27,11 +29,23 @@ struct CountStrays {
     return n;
   }
 
-  SKEIN_INLINE_FUNCTION void operator()(const int b, int& n_strays) const {
+  SKEIN_INLINE_FUNCTION int strays(const int b, const int from, const int step) const {
     const Box& box = boxes(b);
-    if (!box.is_leaf()) return;
-    n_strays += strays(box, sources, box.sources);
-    if (targets.order.extent(0) > 0) n_strays += strays(box, targets, box.targets);
+    if (!box.is_leaf()) return 0;
+    return strays(box, sources, box.sources, from, step) +
+           (targets.order.extent(0) > 0 ? strays(box, targets, box.targets, from, step) : 0);
+  }
+
+  SKEIN_INLINE_FUNCTION void operator()(const int b, int& n_strays) const { n_strays += strays(b, 0, 1); }
+};
+
+/// The same, a box to a team.
+template <class Space>
+struct CountStraysByTeams {
+  CountStrays<Space> count;
+  SKEIN_INLINE_FUNCTION void operator()(const typename Kokkos::TeamPolicy<Space>::member_type& team,
+                                        int& n_strays) const {
+    n_strays += count.strays(team.league_rank(), team.team_rank(), team.team_size());
   }
 };
 
@@ -40,9 +54,14 @@ struct CountStrays {
 template <class Space>
 bool nodes_fit(const Space& space, const Kokkos::View<const Box*, Space>& boxes, const OctreeCube& cube,
                const TreeNodes<Space>& sources, const TreeNodes<Space>& targets) {
+  const CountStrays<Space> count{boxes, cube, sources, targets};
+  const int n_boxes = boxes.extent_int(0);
   int n_strays = 0;
-  Kokkos::parallel_reduce("skein::nodes_fit", Kokkos::RangePolicy<Space>(space, 0, boxes.extent_int(0)),
-                          CountStrays<Space>{boxes, cube, sources, targets}, n_strays);
+  if constexpr (on_host<Space>)
+    Kokkos::parallel_reduce("skein::nodes_fit", Kokkos::RangePolicy<Space>(space, 0, n_boxes), count, n_strays);
+  else
+    Kokkos::parallel_reduce("skein::nodes_fit", Kokkos::TeamPolicy<Space>(space, n_boxes, 128),
+                            CountStraysByTeams<Space>{count}, n_strays);
   return n_strays == 0;
 }
 

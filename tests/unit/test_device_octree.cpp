@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 // The tree in the execution space's memory against the host's, box by box and list by list.
@@ -26,6 +27,20 @@ std::vector<Entry> read_list(const Kokkos::View<Entry*, ExecSpace>& device, cons
   std::vector<Entry> list;
   for (int i = 0; i < n; ++i) list.push_back(host(i));
   return list;
+}
+
+/// To the first entries of an array.
+template <class Entry>
+void write_list(const Kokkos::View<Entry*, ExecSpace>& device, const std::vector<Entry>& list) {
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), device);
+  std::copy(list.begin(), list.end(), host.data());
+  Kokkos::deep_copy(device, host);
+}
+
+std::vector<int> make_order(const int n) {
+  std::vector<int> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  return order;
 }
 
 bool operator==(const skein::IndexRange& a, const skein::IndexRange& b) {
@@ -161,25 +176,26 @@ TEST(DeviceSort, IsTheHostsSort) {
     for (const int n_bits : {3, 15, 60}) {
       const Kokkos::View<std::uint64_t*, HostSpace> key("key", n), spare_key("spare_key", n);
       const Kokkos::View<int*, HostSpace> order("order", n), spare_order("spare_order", n);
-      sorted.require(static_cast<std::size_t>(n));
-      const auto device_key = Kokkos::create_mirror_view(sorted.key);
-      const auto device_order = Kokkos::create_mirror_view(sorted.order);
+      std::vector<std::uint64_t> unsorted_key;
       for (int i = 0; i < n; ++i) {
         // Every key several times, so that a sort that is not stable shows.
         key(i) = random.bits() % static_cast<std::uint64_t>(n / 3 + 1) << (n_bits > 17 ? n_bits - 17 : 0);
         key(i) &= (std::uint64_t{1} << n_bits) - 1;
         order(i) = i;
-        device_key(i) = key(i);
-        device_order(i) = i;
+        unsorted_key.push_back(key(i));
       }
-      Kokkos::deep_copy(sorted.key, device_key);
-      Kokkos::deep_copy(sorted.order, device_order);
       sort_by_key(key, order, n, n_bits, spare_key, spare_order);
-      sort_on_device(ExecSpace(), sorted, n, n_bits, memory);
-      const auto keys = read_list(sorted.key, n);
-      const auto orders = read_list(sorted.order, n);
-      EXPECT_TRUE(std::equal(keys.begin(), keys.end(), key.data())) << n << " keys of " << n_bits << " bits";
-      EXPECT_TRUE(std::equal(orders.begin(), orders.end(), order.data())) << n << " keys of " << n_bits << " bits";
+      for (const int few : {0, 1000}) {  // digit by digit, and by comparisons
+        sorted.require(static_cast<std::size_t>(n));
+        write_list(sorted.key, unsorted_key);
+        write_list(sorted.order, make_order(n));
+        sort_on_device(ExecSpace(), sorted, n, n_bits, memory, few);
+        const auto keys = read_list(sorted.key, n);
+        const auto orders = read_list(sorted.order, n);
+        EXPECT_TRUE(std::equal(keys.begin(), keys.end(), key.data())) << n << " keys of " << n_bits << " bits, " << few;
+        EXPECT_TRUE(std::equal(orders.begin(), orders.end(), order.data()))
+            << n << " keys of " << n_bits << " bits, " << few;
+      }
     }
 }
 

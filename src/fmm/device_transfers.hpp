@@ -1,0 +1,189 @@
+#pragma once
+
+#include "fmm/device_products.hpp"
+#include "fmm/device_translations.hpp"
+
+// The transfers across V lists on a device: far pairs by operator, a few at once, then the sum of each box.
+
+namespace skein {
+
+/// What a pass needs, by value for kernels.
+template <class Space, class Real, class Field>
+struct Passes {
+  OctreeCube cube;
+  Kokkos::View<const Box*, Space> boxes;
+  DeviceLists<FarPair, Space> v_list;
+  Kokkos::View<const std::uint64_t*, Space> far_key;  ///< of V pairs in the order of their operators
+  Kokkos::View<const int*, Space> far_order, far_place;
+  DeviceLists<int, Space> x_list;
+  DeviceNodes<Space> nodes;
+  Field field;
+  DeviceLevels<Space, Real> levels;
+  DeviceCoefficients<Space, Real> coefficients;
+
+  KOKKOS_INLINE_FUNCTION Real* source_of(const int b) const {
+    return coefficients.source.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
+  }
+  KOKKOS_INLINE_FUNCTION Real* target_of(const int b) const {
+    return coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
+  }
+};
+
+/// Far pairs [begin, end) in the order of their operators, a batch to a team: products(pair - begin) = operator times
+/// the coefficients of its source. What is read of an operator serves the columns of a whole batch: a strip of
+/// neighbouring threads takes a group of columns, a thread rows of it. A number is a sum over the columns of the
+/// operator, in their order, whatever the team and the batch.
+template <class Space, class Real, class Field>
+struct TransferProducts {
+  using Team = typename Kokkos::TeamPolicy<Space>::member_type;
+  using Columns = ColumnGroup<Real>;
+  static constexpr int group_pairs = Columns::size / Field::n_columns;  ///< of a strip
+  static constexpr int most_strips = 4;
+  static constexpr int most_rows = on_host<Space> ? 1 : sizeof(Real) == 8 ? 2 : 4;  ///< of a thread at once
+  static constexpr int enough_teams = 2000;                                         ///< to keep a device busy
+
+  Passes<Space, Real, Field> passes;
+  int begin, end;
+  Real* products;  ///< [end - begin][box_size]
+  int n_strips, scratch_level;
+
+  TransferProducts(const Passes<Space, Real, Field>& of, const int first, const int last, Real* to)
+      : passes(of), begin(first), end(last), products(to) {
+    for (n_strips = most_strips; n_strips > 1; n_strips /= 2)
+      if ((end - begin) / batch_pairs() >= enough_teams && choose_scratch_level(scratch_bytes(), sure_scratch) == 0)
+        break;
+    scratch_level = choose_scratch_level(scratch_bytes(), sure_scratch);
+  }
+
+  int batch_pairs() const { return n_strips * group_pairs; }
+  int n_teams() const { return math::ceil_div(end - begin, batch_pairs()); }
+  /// What strips read, and what stands between two thin factors.
+  std::size_t scratch_bytes() const {
+    return TeamArray<Space, Columns>::shmem_size(static_cast<std::size_t>(n_strips * passes.coefficients.stride)) +
+           TeamArray<Space, Columns>::shmem_size(static_cast<std::size_t>(n_strips * passes.levels.max_middle));
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team& team) const {
+    const int n_values = passes.coefficients.stride, n_middle = passes.levels.max_middle;
+    const TeamArray<Space, Columns> in(team.team_scratch(scratch_level), n_strips * n_values);
+    const TeamArray<Space, Columns> middle(team.team_scratch(scratch_level), n_strips * n_middle);
+    // A team that has fewer threads than strips takes them one after the other.
+    const int n_beside = math::smaller(n_strips, team.team_size());
+    const int n_threads = team.team_size() / n_beside;  // of a strip
+    const int first_strip = team.team_rank() / n_threads, lane = team.team_rank() % n_threads;
+    const int n = group_pairs * n_strips;
+    const int first = begin + team.league_rank() * n, last = math::smaller(end, first + n);
+    for (int from = first; from < last;) {
+      const std::uint64_t key = passes.far_key(from);
+      int to = from + 1;
+      while (to < last && passes.far_key(to) == key) ++to;
+      const DeviceOperatorSet<Real>& operators = passes.levels.sets(static_cast<int>(key / n_transfers));
+      const int index = static_cast<int>(key % n_transfers);
+      const DeviceMatrix<Real> last_factor = operators.transfer_last[index];
+      const DeviceMatrix<Real> first_factor = operators.transfer_first[index];
+      const bool is_factored = first_factor.n_columns > 0;
+      team.team_barrier();  // what was read may be overwritten
+      for (int strip = first_strip; strip < n_strips; strip += n_beside)
+        gather(operators, from + strip * group_pairs, to, is_factored ? first_factor.n_columns : last_factor.n_columns,
+               lane, n_threads, in.data() + strip * n_values);
+      team.team_barrier();  // it is complete
+      if (is_factored) {
+        for (int strip = first_strip; strip < n_strips; strip += n_beside)
+          if (from + strip * group_pairs < to)
+            multiply(first_factor, in.data() + strip * n_values, lane, n_threads,
+                     StoreColumns{middle.data() + strip * n_middle});
+        team.team_barrier();  // what stands between the factors is complete
+      }
+      for (int strip = first_strip; strip < n_strips; strip += n_beside)
+        if (from + strip * group_pairs < to)
+          multiply(last_factor, is_factored ? middle.data() + strip * n_middle : in.data() + strip * n_values, lane,
+                   n_threads, StoreProducts{*this, from + strip * group_pairs, to});
+      from = to;
+    }
+  }
+
+ private:
+  /// The columns of pairs [from, to), as many as a group has; zero where there are fewer.
+  KOKKOS_INLINE_FUNCTION void gather(const DeviceOperatorSet<Real>& operators, const int from, const int to,
+                                     const int n, const int lane, const int n_threads, Columns* columns) const {
+    if (from >= to) return;
+    const int stride = passes.coefficients.stride;
+    for (int i = lane; i < n; i += n_threads) {
+      Columns group{};
+      for (int k = 0; k < math::smaller(group_pairs, to - from); ++k) {
+        const FarPair pair = passes.v_list.entries(passes.far_order(from + k));
+        const Real* const source = passes.source_of(pair.source) + i;
+        const Real sign = operators.sign_of(reflected_axes(pair.transfer))[i];
+        Real* const column = group.value + k * Field::n_columns;
+        for (int c = 0; c < Field::n_columns; ++c) column[c] = sign * source[c * stride];
+        // The fourth column of a field that shifts is moved to the centre of the other box, as in team_gather.
+        if constexpr (Field::shifts) {
+          Real shifted = source[3 * stride];
+          for (int c = 0; c < 3; ++c) shifted += Real(2 * pair.transfer[c]) * source[c * stride];
+          column[3] = sign * shifted;
+        }
+      }
+      columns[i] = group;
+    }
+  }
+
+  template <class Write>
+  KOKKOS_INLINE_FUNCTION static void multiply(const DeviceMatrix<Real>& a, const Columns* b, const int lane,
+                                              const int n_threads, const Write& write) {
+    multiply_by_thread<Columns::size, most_rows>(a, lane, n_threads, GroupedColumns<Real>{b}, write);
+  }
+
+  struct StoreColumns {
+    Columns* to;
+    KOKKOS_INLINE_FUNCTION void operator()(const int row, const Real (&sum)[Columns::size]) const {
+      Columns columns;
+      for (int j = 0; j < Columns::size; ++j) columns.value[j] = sum[j];
+      to[row] = columns;
+    }
+  };
+
+  struct StoreProducts {
+    const TransferProducts& of;
+    int from, to;
+    KOKKOS_INLINE_FUNCTION void operator()(const int row, const Real (&sum)[Columns::size]) const {
+      const auto& coefficients = of.passes.coefficients;
+      for (int k = 0; k < math::smaller(group_pairs, to - from); ++k) {
+        Real* const product = of.products + static_cast<std::ptrdiff_t>(from + k - of.begin) * coefficients.box_size;
+        for (int c = 0; c < Field::n_columns; ++c)
+          product[row + c * coefficients.stride] = sum[k * Field::n_columns + c];
+      }
+    }
+  };
+};
+
+/// The coefficients of a target += the products of its far pairs that are in [begin, end), in the order of its list: a
+/// team for every box.
+template <class Space, class Real, class Field>
+struct AddTransfers {
+  using Team = typename Kokkos::TeamPolicy<Space>::member_type;
+
+  Passes<Space, Real, Field> passes;
+  int first_box, begin, end;
+  const Real* products;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team& team) const {
+    const int b = first_box + team.league_rank();
+    const int first = passes.v_list.first(b), last = passes.v_list.first(b + 1);
+    if (first == last) return;
+    const auto& coefficients = passes.coefficients;
+    const DeviceOperatorSet<Real>& operators = passes.levels.sets(passes.boxes(b).level);
+    for (int row = team.team_rank(); row < operators.rank_padded; row += team.team_size()) {
+      Real sum[Field::n_columns] = {};
+      for (int k = first; k < last; ++k) {
+        const int place = passes.far_place(k);
+        if (place < begin || place >= end) continue;
+        const Real sign = operators.sign_of(reflected_axes(passes.v_list.entries(k).transfer))[row];
+        const Real* const product = products + static_cast<std::ptrdiff_t>(place - begin) * coefficients.box_size + row;
+        for (int c = 0; c < Field::n_columns; ++c) sum[c] += sign * product[c * coefficients.stride];
+      }
+      for (int c = 0; c < Field::n_columns; ++c) passes.target_of(b)[row + c * coefficients.stride] += sum[c];
+    }
+  }
+};
+
+}  // namespace skein
