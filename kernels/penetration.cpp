@@ -12,11 +12,12 @@ namespace {
 
 constexpr double half_turn_of_space = 2.0 * std::numbers::pi;  ///< solid angle halfway between inside and outside
 
-/// Looks for the nodes of one block of sections, or of one section on devices, inside of surfaces.
+/// Looks for the nodes of one block of sections inside of surfaces; on devices for some nodes of one section.
 template <class Space>
 struct PenetrationSearch {
-  static constexpr double margin = 1e-9;  ///< in radii, for rounding
-  static constexpr int items_per_block = on_host<Space> ? 1 : sections_per_block;
+  static constexpr double margin = 1e-9;                   ///< in radii, for rounding
+  static constexpr int n_shares = on_host<Space> ? 1 : 8;  ///< of a section's nodes
+  static constexpr int items_per_block = on_host<Space> ? 1 : sections_per_block * n_shares;
   TubeSurfaces<Space> surfaces;
   ScalarView<Space> depth;
 
@@ -24,16 +25,17 @@ struct PenetrationSearch {
     const int block = item / items_per_block;
     const int f = surfaces.sections.fiber_of_block(block);
     const FiberSections& fiber = surfaces.sections.fiber(f);
-    int section = fiber.first_section_of(block), end = fiber.end_section_of(block);
+    int section = fiber.first_section_of(block), end = fiber.end_section_of(block), share = 0;
     if constexpr (items_per_block > 1) {
-      section += item % items_per_block;
+      section += item % items_per_block / n_shares;
+      share = item % n_shares;
       if (section >= end) return;
       end = section + 1;
     }
-    const int first_node = fiber.first_node_of(section), end_node = fiber.first_node_of(end);
-    for (int node = first_node; node < end_node; ++node) depth(node) = 0.0;
-    search(f, section, end);
-    for (int node = first_node; node < end_node; ++node) {
+    const int first_node = fiber.first_node_of(section) + share, end_node = fiber.first_node_of(end);
+    for (int node = first_node; node < end_node; node += n_shares) depth(node) = 0.0;
+    search(f, section, end, share);
+    for (int node = first_node; node < end_node; node += n_shares) {
       count += depth(node) > 0.0;
       if (depth(node) > deepest) deepest = depth(node);
     }
@@ -44,7 +46,8 @@ struct PenetrationSearch {
     return {end - 1 - fiber.distant_sections, first + fiber.distant_sections};
   }
 
-  KOKKOS_INLINE_FUNCTION void search(const int f, const int first, const int end) const {
+  /// @param share  of the nodes of each section: every n_shares-th from this one on
+  KOKKOS_INLINE_FUNCTION void search(const int f, const int first, const int end, const int share) const {
     const FiberSections& fiber = surfaces.sections.fiber(f);
     Vec3 low, high;
     enclose<Space>(surfaces.ring_low, surfaces.ring_high, first, end, low, high);
@@ -54,11 +57,11 @@ struct PenetrationSearch {
       if (!touch(low, high, surfaces.fiber_low, surfaces.fiber_high, tube)) continue;
       const HiddenPrisms hidden = tube == f ? hidden_from(fiber, first, end) : HiddenPrisms{};
       if (!is_near_some_block(low, high, tube, hidden, [](int, int) { return true; })) continue;
-      for (int section = first; section < end; ++section) search_section(f, section, tube);
+      for (int section = first; section < end; ++section) search_section(f, section, share, tube);
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void search_section(const int f, const int section, const int tube) const {
+  KOKKOS_INLINE_FUNCTION void search_section(const int f, const int section, const int share, const int tube) const {
     const FiberSections& fiber = surfaces.sections.fiber(f);
     const HiddenPrisms hidden = tube == f ? hidden_from(fiber, section, section + 1) : HiddenPrisms{};
     const Vec3 low = load(surfaces.ring_low, section), high = load(surfaces.ring_high, section);
@@ -69,7 +72,7 @@ struct PenetrationSearch {
         }))
       return;
     const int end_node = fiber.first_node_of(section + 1);
-    for (int node = fiber.first_node_of(section); node < end_node; ++node) {
+    for (int node = fiber.first_node_of(section) + share; node < end_node; node += n_shares) {
       const double found = depth_in(tube, hidden, load(surfaces.position, node));
       if (found > depth(node)) depth(node) = found;
     }

@@ -2,7 +2,7 @@
 
 #include <skein/core/error.hpp>
 
-#include "kernels/spring_node.hpp"
+#include "kernels/spring_teams.hpp"
 #include "kernels/spring_tile.hpp"
 
 namespace skein {
@@ -17,21 +17,6 @@ struct StencilPointers {
 template <class Space>
 KOKKOS_INLINE_FUNCTION StencilPointers stencil_of(const SpringArrays<Space>& springs, const FiberSprings& fiber) {
   return {springs.stiffness.data() + fiber.first_entry, springs.inverse_rest_length.data() + fiber.first_entry};
-}
-
-/// Force on one node of all its springs.
-template <class Space>
-KOKKOS_INLINE_FUNCTION Vec3 force_on_node(const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
-                                          const int node) {
-  const Vec3 x = load(position, node);
-  Vec3 force;
-  for_each_spring<Space>(springs, node, [&](const int other, const double stiffness, const double inverse_rest_length) {
-    const Vec3 d = x - load(position, other);
-    const double r_squared = dot(d, d);
-    if (r_squared == 0.0) return;
-    force = force + stiffness * (math::inverse_sqrt(r_squared) - inverse_rest_length) * d;
-  });
-  return force;
 }
 
 /// Energy of the springs inside a section and from it to later ones.
@@ -84,15 +69,26 @@ void check_extents(const SpringArrays<Space>& springs, const ConstVectorView<Spa
 }
 
 template <class Space>
-void sum_by_nodes(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
+void sum_by_teams(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
                   const VectorView<Space>& force, const bool adds) {
+  using Sum = ForcesByTeams<Space>;
   check_extents<Space>(springs, position, force);
-  Kokkos::parallel_for(
-      "skein::add_spring_force_by_nodes", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
-      KOKKOS_LAMBDA(const int node) {
-        const Vec3 before = adds ? load(force, node) : Vec3{};
-        store(force, node, before + force_on_node<Space>(springs, position, node));
-      });
+  typename Sum::Policy policy(space, math::ceil_div(position.extent_int(0), Sum::team_nodes),
+                              on_host<Space> ? 1 : Sum::n_workers);
+  policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(Sum::Partial::shmem_size(Sum::n_workers))));
+  Kokkos::parallel_for("skein::add_spring_force_by_nodes",
+                       Kokkos::Experimental::require(policy, Kokkos::Experimental::WorkItemProperty::HintLightWeight),
+                       Sum{springs, position, force, adds});
+}
+
+/// A node to a thread of a host.
+void add_by_nodes_of_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
+                          const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
+  check_extents<HostSpace>(springs, position, force);
+  Kokkos::parallel_for("skein::add_spring_force_by_nodes",
+                       Kokkos::RangePolicy<HostSpace>(space, 0, position.extent_int(0)), [=](const int node) {
+                         store(force, node, load(force, node) + force_on_node<HostSpace>(springs, position, node));
+                       });
 }
 
 }  // namespace
@@ -100,26 +96,26 @@ void sum_by_nodes(const Space& space, const SpringArrays<Space>& springs, const 
 template <class Space>
 void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                const ConstVectorView<Space>& position, const VectorView<Space>& force) {
-  sum_by_nodes<Space>(space, springs, position, force, true);
+  sum_by_teams<Space>(space, springs, position, force, true);
 }
 
 template <class Space>
 void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                    const ConstVectorView<Space>& position, const VectorView<Space>& force) {
-  sum_by_nodes<Space>(space, springs, position, force, false);
+  sum_by_teams<Space>(space, springs, position, force, false);
 }
 
 template <class Space>
 void add_spring_force(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
                       const VectorView<Space>& force) {
-  if constexpr (on_host<Space>) {
-    if (!springs.has_wide_sections) {
-      check_extents<Space>(springs, position, force);
-      add_on_host(space, springs, position, force);
-      return;
-    }
+  if constexpr (!on_host<Space>) {
+    add_spring_force_by_nodes<Space>(space, springs, position, force);
+  } else if (springs.has_wide_sections) {
+    add_by_nodes_of_host(space, springs, position, force);
+  } else {
+    check_extents<Space>(springs, position, force);
+    add_on_host(space, springs, position, force);
   }
-  add_spring_force_by_nodes<Space>(space, springs, position, force);
 }
 
 template <class Space>

@@ -5,8 +5,10 @@
 namespace skein {
 
 /// Calls body(other node, stiffness, 1 / rest length) for each spring of a node, in a fixed order.
+/// @param share, n_shares  of each section's nodes every n_shares-th, from `share` on
 template <class Space, class Body>
-KOKKOS_INLINE_FUNCTION void for_each_spring(const SpringArrays<Space>& springs, const int node, const Body& body) {
+KOKKOS_INLINE_FUNCTION void for_each_spring(const SpringArrays<Space>& springs, const int node, const Body& body,
+                                            const int share = 0, const int n_shares = 1) {
   const FiberSprings fiber = springs.fiber(springs.fiber_of_node(node));
   const double* stiffness = springs.stiffness.data() + fiber.first_entry;
   const double* inverse_rest_length = springs.inverse_rest_length.data() + fiber.first_entry;
@@ -21,7 +23,7 @@ KOKKOS_INLINE_FUNCTION void for_each_spring(const SpringArrays<Space>& springs, 
     const int row = sense * (other_section - section) * n;
     const int first_other = fiber.first_node + other_section * n;
     const double factor = spring_factor<Space>(springs, fiber, section, other_section);
-    for (int b = 0; b < n; ++b) {
+    for (int b = share; b < n; b += n_shares) {
       const int steps = sense * (b - a);
       const int entry = row + (steps < 0 ? steps + n : steps);
       if (stiffness[entry] != 0.0) body(first_other + b, factor * stiffness[entry], inverse_rest_length[entry]);

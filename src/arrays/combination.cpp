@@ -6,7 +6,14 @@
 namespace skein {
 namespace {
 
-constexpr int chunk_nodes = 256;  // fixes the order of a sum
+/// Nodes whose sum one thread makes: what fixes the order. A device has threads in plenty, and the host adds up what
+/// they leave.
+template <class Space>
+int choose_chunk(const int n_nodes) {
+  constexpr int most_nodes = 256, fewest_nodes = 16, most_chunks = 4096;
+  if (on_host<Space>) return most_nodes;
+  return math::smaller(most_nodes, math::larger(fewest_nodes, math::ceil_div(n_nodes, most_chunks)));
+}
 
 template <class Space, int n_terms>
 struct Combination {
@@ -62,7 +69,7 @@ void combine(const Space& space, const VectorView<Space>& result, const Term<Spa
 template <class Space>
 double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
   SKEIN_REQUIRE(a.extent(0) == b.extent(0), "arrays of a dot product differ in length");
-  const int n_nodes = a.extent_int(0);
+  const int n_nodes = a.extent_int(0), chunk_nodes = choose_chunk<Space>(a.extent_int(0));
   const int n_chunks = math::ceil_div(n_nodes, chunk_nodes);
   const ScalarView<Space> chunk_sum = require_chunk_sums<Space>(n_chunks);
   Kokkos::parallel_for(
