@@ -7,6 +7,7 @@ set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 
 bin=${1:-build/cuda}/bin
+python=${PYTHON:-/usr/bin/python3} # with h5py and numpy
 kept=$(mktemp -d "${TMPDIR:-/tmp}/skein_gpu.XXXXXX")
 n_yes=0 n_no=0 n_missing=0
 SECONDS=0
@@ -59,6 +60,26 @@ done <<'ROWS'
 378144 single 9.5e11
 ROWS
 
+# The fast multipole method: milliseconds at most, with a new tree (column 9) or one that is kept (column 3).
+timeout 60 "$bin/bench_fmm" device >"$kept/fmm.csv"
+while read -r shape nodes tolerance column most; do
+  row=$(grep "^device,0,[^,]*,$shape,$nodes,$tolerance," "$kept/fmm.csv" || true)
+  tree=new
+  if [[ $column == 3 ]]; then tree=kept; fi
+  name="fast multipole method, $shape, $nodes nodes, $tolerance, $tree tree"
+  if [[ -z $row ]]; then must "$name" "not run"; continue; fi
+  time=$(cut -d, -f"$column" <<<"$row") error=$(cut -d, -f12 <<<"$row")
+  must "$name: $time ms, at most $most; error $error" "$(is_true "$time <= $most && $error <= 2 * $tolerance")"
+done <<'ROWS'
+straight 23634 0.0001 3 0.6
+straight 23634 0.0001 9 1.2
+straight 94536 0.0001 3 1.2
+suspension 180000 0.0001 3 3
+uniform 1000000 0.0001 9 10
+uniform 1000000 1e-06 9 20
+uniform 1000000 1e-09 9 80
+ROWS
+
 # Whole runs, start to end, with frames and checkpoints: seconds at most.
 # run <name> <scene> <end> <seconds> key=value...
 run() {
@@ -77,10 +98,11 @@ while read -r name scene end most settings; do
 done <<'ROWS'
 first lagrone2019_L0139.toml 11 0.5
 snake lagrone2019_L0523.toml 26 4.0
-long lagrone2019_L228.toml 110 60.0 fiber.nodes_per_section=18 fiber.sections=1313 fiber.spring_stiffness=0.0112 fiber.blob=0.00225
+coarse lagrone2019_L228.toml 110 60.0
+long lagrone2019_L228.toml 110 60.0 hydrodynamics.precision=single fiber.nodes_per_section=18 fiber.sections=1313 fiber.spring_stiffness=0.0112 fiber.blob=0.00225
 ROWS
 run again lagrone2019_L0139.toml 11 1
-passes "two runs are equal to the bit" 20 /usr/bin/python3 tools/compare_runs.py "$kept/first" "$kept/again" --at-most 0
+passes "two runs are equal to the bit" 20 "$python" tools/compare_runs.py "$kept/first" "$kept/again" --at-most 0
 
 # A run that is killed and goes on.
 "$bin/skein" run configs/lagrone2019_L0523.toml -o "$kept/killed" --set time.end=26 >"$kept/killed.log" 2>&1 &
@@ -89,21 +111,45 @@ sleep 1.5
 kill -KILL "$killed" 2>/dev/null
 wait "$killed" 2>/dev/null
 "$bin/skein" resume "$kept/killed" >>"$kept/killed.log" 2>&1
-passes "a killed run goes on to the same bits" 30 /usr/bin/python3 tools/compare_runs.py "$kept/snake" "$kept/killed" --at-most 0
+passes "a killed run goes on to the same bits" 30 "$python" tools/compare_runs.py "$kept/snake" "$kept/killed" --at-most 0
 passes "and is whole" 30 "$bin/skein" verify "$kept/killed"
 
-# Tests: of direct sums, springs, tree and passes first.
+# Tests, side by side: of direct sums, springs, tree and passes first. Then what a sanitizer says of the kernels.
+# together <name> <seconds> command...: begins it; `collect` says what became of all that were begun.
+begun=()
+together() {
+  local name=$1 limit=$2
+  shift 2
+  begun+=("$name")
+  (
+    timeout "$limit" "$@" >"$kept/${name//[^A-Za-z0-9]/_}.log" 2>&1
+    echo $? >"$kept/${name//[^A-Za-z0-9]/_}.code"
+  ) &
+}
+collect() {
+  local name code
+  wait
+  for name in "${begun[@]}"; do
+    code=$(cat "$kept/${name//[^A-Za-z0-9]/_}.code")
+    must "$name" "$(if ((code == 124)); then say "not run"; else yes_if test "$code" = 0; fi)"
+  done
+  begun=()
+}
 for test in test_launch_counts test_machine_rates test_stokeslet_direct test_spring_force test_combination test_sections \
-  test_device_octree test_device_fmm test_section_repulsion test_implicit_parts test_restart test_mobility; do
-  passes "$test" 60 "$bin/$test"
+  test_penetration test_device_octree test_device_fmm test_section_repulsion test_implicit_parts test_restart test_force \
+  test_mobility; do
+  together "$test" 120 "$bin/$test"
 done
+collect
 for tool in memcheck racecheck; do
-  passes "$tool of direct sums" 40 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_stokeslet_direct" \
-    --gtest_filter='StokesletTeams.*:*OtherTargets*teams*'
-  passes "$tool of springs" 30 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_spring_force"
-  passes "$tool of the tree" 40 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_device_octree"
-  passes "$tool of the passes" 40 compute-sanitizer --tool "$tool" --error-exitcode 3 "$bin/test_device_fmm"
+  sanitize=(compute-sanitizer --tool "$tool" --error-exitcode 3)
+  together "$tool of direct sums" 80 "${sanitize[@]}" "$bin/test_stokeslet_direct" --gtest_filter='StokesletTeams.*'
+  together "$tool of springs" 80 "${sanitize[@]}" "$bin/test_spring_force"
+  together "$tool of the tree" 80 "${sanitize[@]}" "$bin/test_device_octree"
+  together "$tool of the passes" 80 "${sanitize[@]}" "$bin/test_device_fmm" \
+    --gtest_filter='*EveryKind*:*SinglePrecision*:*TargetsApart*'
 done
+collect
 
 # Peaks, shares of them, steps by length; then, where time is left, the rates that choices are made by (src/fmm/machine_rates.cpp).
 timeout 90 "$bin/skein" bench machine | tee "$kept/machine.txt"
