@@ -5,12 +5,6 @@
 #include <algorithm>
 
 namespace skein {
-namespace {
-
-/// Room for the products of far pairs: every time that it is full, all lists are gone through.
-constexpr std::size_t most_product_bytes = std::size_t{1} << 29;
-
-}  // namespace
 
 bool DeviceFmmEvaluator::take(const Sources& sources, const ConstVectors& target) {
   nodes_ = {sources.position, sources.force, target, sources.blob};
@@ -65,7 +59,7 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
   require_extent(coefficients.source, needed, "skein::device_fmm_evaluator::source_coefficients");
   require_extent(coefficients.target, needed, "skein::device_fmm_evaluator::target_coefficients");
   const auto box_size = static_cast<std::size_t>(std::max(1, coefficients.box_size));
-  const std::size_t n_products = std::clamp(most_product_bytes / (sizeof(Real) * box_size), std::size_t{1},
+  const std::size_t n_products = std::clamp(most_product_bytes_ / (sizeof(Real) * box_size), std::size_t{1},
                                             static_cast<std::size_t>(std::max(1, tree_.v_list.n_entries)));
   require_extent(coefficients.products, n_products * box_size, "skein::device_fmm_evaluator::products");
   compute_coefficients_by_teams<ExecSpace, Real, Field>(space_, tree_, sorted_, field, levels, coefficients,

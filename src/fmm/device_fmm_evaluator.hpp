@@ -11,8 +11,12 @@ namespace skein {
 /// Operators are made there, and copied when they are first met.
 class DeviceFmmEvaluator final : public FmmSum {
  public:
-  /// @param team_size  threads of a team, 0: as Kokkos likes; the result does not depend on it
-  explicit DeviceFmmEvaluator(const int team_size = usual_team_size<ExecSpace>) : team_size_(team_size) {}
+  /// @param team_size           threads of a team, 0: as Kokkos likes; the result does not depend on it
+  /// @param most_product_bytes  room for the products of far pairs: every time that it is full, all lists are gone
+  ///                            through. Sums are in another order then
+  explicit DeviceFmmEvaluator(const int team_size = usual_team_size<ExecSpace>,
+                              const std::size_t most_product_bytes = std::size_t{1} << 29)
+      : team_size_(team_size), most_product_bytes_(most_product_bytes) {}
 
   bool take(const Sources& sources, const ConstVectors& target) override;
   double largest_blob() const override { return blobs_.largest; }
@@ -39,6 +43,7 @@ class DeviceFmmEvaluator final : public FmmSum {
 
   ExecSpace space_;
   int team_size_;
+  std::size_t most_product_bytes_;
   UnsortedNodes<ExecSpace> nodes_;
   BlobRange blobs_{0.0, 0.0};
   DeviceOctree<ExecSpace> tree_;

@@ -196,6 +196,22 @@ TEST(DeviceFmm, TeamsAndRepetitionsChangeNoBit) {
     }
 }
 
+TEST(DeviceFmm, FarPairsMayBeTakenAFewAtATime) {
+  for (const FarField far_field : {FarField::harmonic, FarField::stokeslet}) {
+    FmmOptions options = options_for(far_field);
+    options.order = 4;
+    options.tolerance = 1.0;
+    const PointForces cloud = make_forces(Cloud::cluster, 900, 1e-4, 1e-3);
+    DeviceFmmEvaluator all_at_once;
+    const auto expected = compute_by_teams(all_at_once, cloud, options);
+    for (const std::size_t bytes : {std::size_t{1}, std::size_t{200'000}}) {
+      DeviceFmmEvaluator few(usual_team_size<ExecSpace>, bytes);
+      EXPECT_LT(relative_error(compute_by_teams(few, cloud, options), expected), 1e-13) << bytes;
+      EXPECT_LT(few.statistics.memory_bytes, all_at_once.statistics.memory_bytes);
+    }
+  }
+}
+
 TEST(DeviceFmm, WorksInTheLargeScratchMemory) {
   FmmOptions options = options_for(FarField::harmonic);
   options.order = 13;
