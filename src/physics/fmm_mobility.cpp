@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -16,6 +17,10 @@ namespace {
 
 /// Errors below this part of the velocities that the sum is added to are rounding: of fibers at rest in a flow.
 constexpr double rounding = 1e-12;
+
+/// Of the tolerance, that a lower order may use up to be taken again; and how rare the tries become, in checks.
+constexpr double lowering_share = 0.5;
+constexpr std::int64_t longest_lowering_wait = 512;
 
 constexpr double min_fmm_pairs = 5e5;  ///< fewer are summed directly before a tree is built
 
@@ -79,13 +84,16 @@ void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& targe
   if (sums_directly(n_pairs, targets)) return direct_sum_of(n_pairs).add_velocity(sources, target, velocity);
 
   if (!sum_->take(sources, target)) return Kokkos::deep_copy(velocity, std::numeric_limits<double>::quiet_NaN());
+  if (is_checked && lowers_order(sources, target, targets)) return use_sum(velocity);
   while (evaluate(targets))
-    if (!is_checked || passes_check(sources, target, velocity)) {
-      ++record_.n_approximate;
-      record_.order = sum_->statistics.plan.order;
-      return sum_->add_to(velocity);
-    }
+    if (!is_checked || passes_check(sources, target, velocity)) return use_sum(velocity);
   direct_sum_of(n_pairs).add_velocity(sources, target, velocity);
+}
+
+void FmmMobility::use_sum(const Vectors& velocity) {
+  ++record_.n_approximate;
+  record_.order = sum_->statistics.plan.order;
+  sum_->add_to(velocity);
 }
 
 DirectMobility& FmmMobility::direct_sum_of(const double n_pairs) {
@@ -114,9 +122,7 @@ bool FmmMobility::passes_check(const Sources& sources, const ConstVectors& targe
   const EvenSample sample(target.extent_int(0), options_.n_checked_targets);
   const Comparison comparison = compare(viscosity_, sources, target, *sum_, sample);
   if (comparison.difference < rounding * norm_at(velocity, sample)) return true;
-  record_.last = comparison.relative();
-  record_.largest = std::isnan(record_.largest) ? record_.last : std::fmax(record_.largest, record_.last);
-  ++record_.n_checks;
+  note_check(comparison.relative());
   if (!(record_.last > options_.tolerance)) return true;  // not a number: the time step finds out and names the node
   ++record_.n_misses;
   const int order = sum_->statistics.plan.order;
@@ -128,7 +134,37 @@ bool FmmMobility::passes_check(const Sources& sources, const ConstVectors& targe
     throw Error(ExitCode::numerical, miss + "; raise the tolerance or use method = \"direct\"");
   messages_.push_back(fmt::format("{}; order {} from here on", miss, next_order));
   raised_order_ = next_order;
+  if (record_.n_misses > 1) lowering_wait_ = std::min(2 * lowering_wait_, longest_lowering_wait);
+  next_lowering_ = record_.n_checks + lowering_wait_;
   return false;
+}
+
+bool FmmMobility::lowers_order(const Sources& sources, const ConstVectors& target, const FmmTargets targets) {
+  if (raised_order_ == 0 || record_.n_checks < next_lowering_) return false;
+  const int raised = raised_order_, lower = raised - 1;
+  raised_order_ = lower > choose_fmm_plan(options_, 0.0, 0).order ? lower : 0;
+  const EvenSample sample(target.extent_int(0), options_.n_checked_targets);
+  const bool has_sum = evaluate(targets);
+  const double error = has_sum ? compare(viscosity_, sources, target, *sum_, sample).relative() : 0.0;
+  const bool is_met = has_sum && error <= lowering_share * options_.tolerance;
+  if (is_met) {
+    note_check(error);
+    messages_.push_back(fmt::format(
+        "the fast multipole method meets tolerance = {:g} at order {} again: its error at {} checked targets "
+        "is {:.2g}; that order from here on",
+        options_.tolerance, sum_->statistics.plan.order, sample.n_chosen, error));
+  } else {
+    raised_order_ = raised;
+    lowering_wait_ = std::min(2 * lowering_wait_, longest_lowering_wait);
+  }
+  next_lowering_ = record_.n_checks + lowering_wait_;
+  return is_met;
+}
+
+void FmmMobility::note_check(const double error) {
+  record_.last = error;
+  record_.largest = std::isnan(record_.largest) ? error : std::fmax(record_.largest, error);
+  ++record_.n_checks;
 }
 
 double FmmMobility::measure_error(const Sources& sources, const ConstVectors& target, const int n_sample) {
@@ -140,6 +176,8 @@ double FmmMobility::measure_error(const Sources& sources, const ConstVectors& ta
 
 void FmmMobility::visit_memory(MemoryVisitor& visitor) {
   visitor.count("mobility.raised_order", raised_order_);
+  visitor.integer("mobility.next_lowering", next_lowering_);
+  visitor.integer("mobility.lowering_wait", lowering_wait_);
   visitor.integer("mobility.evaluations", n_evaluations_);
   visitor.count("mobility.order", record_.order);
   visitor.number("mobility.last_error", record_.last);

@@ -335,6 +335,45 @@ TEST(FmmCheck, RaisesTheOrderAndLeavesNothingOfTheMissInTheSum) {
   EXPECT_EQ(fmm.error_record().n_misses, n_misses) << "the raised order is kept";
 }
 
+// Forces whose far fields add up miss; those that cancel do not.
+TEST(FmmCheck, LowersTheOrderAgainWhenChecksAllowIt) {
+  const PointForces random = with_forces(make_tube(300), 1e-5, 12);
+  PointForces aligned = random;
+  aligned.force.assign(aligned.force.size(), {1.0, 0.3, -0.2});
+  FmmOptions options;
+  options.tolerance = 4e-3;
+  options.order = 4;
+  options.leaf_size = 30;
+  options.singular_cutoff = 0.1;  // cut far too short, until the order is raised
+  options.check_every = 1;
+  FmmMobility fmm(viscosity, options);
+  const Vectors velocity("velocity", random.position.size()), exact("exact", random.position.size());
+  const auto evaluate = [&](const PointForces& from) {
+    const Sources sources = on_device(from);
+    Kokkos::deep_copy(velocity, 0.0);
+    Kokkos::deep_copy(exact, 0.0);
+    fmm.add_velocity(sources, sources.position, velocity);
+    DirectMobility(viscosity, Precision::in_double).add_velocity(sources, sources.position, exact);
+    return error_of(to_host(velocity), to_host(exact));
+  };
+  EXPECT_LT(evaluate(aligned), options.tolerance);
+  ASSERT_GE(fmm.error_record().n_misses, 1);
+  const int raised = fmm.error_record().order;
+  ASSERT_GT(raised, 4);
+  // A lower order is tried now and then, in vain, and ever more seldom.
+  for (int i = 0; i < 30; ++i) EXPECT_LT(evaluate(aligned), options.tolerance);
+  EXPECT_EQ(fmm.error_record().order, raised);
+  EXPECT_EQ(fmm.error_record().n_misses, fmm.take_messages().size());
+  const auto n_checks = fmm.error_record().n_checks;
+  while (fmm.error_record().order > 4 && fmm.error_record().n_checks < n_checks + 200)
+    EXPECT_LT(evaluate(random), options.tolerance);
+  EXPECT_EQ(fmm.error_record().order, 4);
+  EXPECT_EQ(fmm.take_messages().size(), static_cast<std::size_t>(raised - 4)) << "one for every order";
+  // And up again at the next miss.
+  EXPECT_LT(evaluate(aligned), options.tolerance);
+  EXPECT_EQ(fmm.error_record().order, raised);
+}
+
 TEST(FmmCheck, ChoosesTheDirectSumWhereItIsCheaper) {
   FmmOptions options;
   options.direct_when_cheaper = true;

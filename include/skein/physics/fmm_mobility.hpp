@@ -52,14 +52,24 @@ class FmmMobility final : public Mobility {
   bool evaluate(FmmTargets targets);
   /// False where the sum, which is to be added to `velocity`, missed the tolerance, and the order is raised now.
   bool passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity);
+  /// Some checks after the order was raised, a lower one is tried. True where it has met the tolerance with room to
+  /// spare: it is taken, and its sum is there.
+  bool lowers_order(const Sources& sources, const ConstVectors& target, FmmTargets targets);
+  void note_check(double error);
+  /// The sum is added to the velocities.
+  void use_sum(const Vectors& velocity);
+
+  static constexpr std::int64_t first_lowering_wait = 8;
 
   double viscosity_;
   FmmOptions options_;
   DirectMobility direct_, direct_in_single_;
   std::unique_ptr<FmmSum> sum_;
   double pairs_ = 0.0;
-  int raised_order_ = 0;            ///< that a check found necessary; 0: as planned
-  std::int64_t n_evaluations_ = 0;  ///< decides which are checked
+  int raised_order_ = 0;                              ///< that a check found necessary; 0: as planned
+  std::int64_t next_lowering_ = 0;                    ///< number of checks at which a lower one is tried
+  std::int64_t lowering_wait_ = first_lowering_wait;  ///< checks from one try to the next
+  std::int64_t n_evaluations_ = 0;                    ///< decides which are checked
   ErrorRecord record_;
   std::vector<std::string> messages_;
 };
