@@ -40,7 +40,7 @@ struct TransferProducts {
   static constexpr int group_pairs = Columns::size / Field::n_columns;  ///< of a strip
   static constexpr int most_strips = 4;
   static constexpr int most_rows = on_host<Space> ? 1 : sizeof(Real) == 8 ? 2 : 4;  ///< of a thread at once
-  static constexpr int enough_teams = 2000;                                         ///< to keep a device busy
+  static constexpr int enough_teams = on_host<Space> ? 4 : 2000;                    ///< to keep a device busy
 
   Passes<Space, Real, Field> passes;
   int begin, end;

@@ -149,14 +149,25 @@ class Runs(InFreshFolder):
             while not done.is_set():
                 counts[0] += 1
 
+        # Only what is counted between two calls tells: while a call lasts, Python's own threads take turns.
+        between, last = [0], [None]
+
+        def look(frame):
+            if last[0] is not None:
+                between[0] += counts[0] - last[0]
+            last[0] = counts[0]
+            return between[0] <= 1000
+
         thread = threading.Thread(target=count)
-        scene = skein.Scene(self.write(SMALL_SCENE), {"output.frame_interval": 0.3})
+        scene = skein.Scene(self.write(SMALL_SCENE), {"time.end": 400.0, "output.frame_interval": 0.3})
         thread.start()
-        at_frames = []
-        skein.run(scene, on_frame=lambda frame: at_frames.append(counts[0]))
-        done.set()
-        thread.join()
-        self.assertGreater(at_frames[1] - at_frames[0], 1000)
+        try:
+            run = skein.run(scene, self.folder / "run", look, max_walltime=120.0)
+        finally:
+            done.set()
+            thread.join()
+        self.assertGreater(between[0], 1000)
+        self.assertEqual(run.status, "stopped")
 
     def test_a_run_that_begins_with_another_ones_state(self):
         parent = skein.Run(self.make_run("parent"))
