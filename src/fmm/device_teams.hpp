@@ -62,52 +62,31 @@ struct AddProduct {
   }
 };
 
-template <int n_rows, int n_columns, class Real, class Write>
-KOKKOS_INLINE_FUNCTION void multiply_rows(const DeviceMatrix<Real>& a, const int row, const Real* b, const int b_stride,
-                                          const Write& write) {
-  Real sum[n_rows][n_columns] = {};
-  const Real* column = a.entry + row;
-  for (int k = 0; k < a.n_columns; ++k, column += a.n_rows)
-    for (int i = 0; i < n_rows; ++i)
-      for (int j = 0; j < n_columns; ++j) sum[i][j] += column[i] * b[k + j * b_stride];
-  for (int i = 0; i < n_rows; ++i) write(row + i, sum[i]);
-}
-
-/// A times the columns b, each row by one thread; neighbours read neighbouring entries of A. b is complete already, and
-/// what is written is complete after the next barrier.
+/// A times the columns b. b is complete already, and what is written is complete after the next barrier.
 template <int n_columns, class Team, class Real, class Write>
 KOKKOS_INLINE_FUNCTION void team_multiply(const Team& team, const DeviceMatrix<Real>& a, const Real* b,
                                           const int b_stride, const Write& write) {
-#if SKEIN_ON_DEVICE
   multiply_by_thread<n_columns, 4>(a, team.team_rank(), team.team_size(), StridedColumns<Real>{b, b_stride}, write);
-#else
-  constexpr int at_once = 8;  // rows in vector registers
-  int row = at_once * team.team_rank();
-  for (; row + at_once <= a.n_rows; row += at_once * team.team_size())
-    multiply_rows<at_once, n_columns>(a, row, b, b_stride, write);
-  const int last = math::smaller(a.n_rows, row + at_once);  // of this thread's cut block, if it has one
-  for (; row < last; ++row) multiply_rows<1, n_columns>(a, row, b, b_stride, write);
-#endif
 }
 
-/// column <- from with the signs of a reflection. The fourth column of a field that shifts (psi, measured from the
-/// box's centre) is moved to the centre of the other box: to = scale * psi + shift . phi.
+/// One row of coefficients with the sign of a reflection. The fourth column of a field that shifts (psi, measured from
+/// the box's centre) is moved to the centre of the other box: to = scale * psi + shift . phi.
+template <class Field, class Real>
+KOKKOS_INLINE_FUNCTION void gather_row(const Real* from, const int stride, const Real sign, const Real scale,
+                                       const Real (&shift)[3], Real* to, const int to_stride) {
+  for (int column = 0; column < Field::n_columns; ++column) to[column * to_stride] = sign * from[column * stride];
+  if constexpr (Field::shifts)
+    to[3 * to_stride] =
+        sign * (scale * from[3 * stride] + shift[0] * from[0] + shift[1] * from[stride] + shift[2] * from[2 * stride]);
+}
+
+/// n rows by the threads of a team.
 template <class Field, class Team, class Real>
 KOKKOS_INLINE_FUNCTION void team_gather(const Team& team, const Real* from, const int stride, const int n,
                                         const Real* sign, const Real scale, const Real (&shift)[3], Real* to,
                                         const int to_stride) {
-  for (int i = team.team_rank(); i < n; i += team.team_size()) {
-    if constexpr (Field::shifts) {
-      const Real x = from[i], y = from[i + stride], z = from[i + 2 * stride], psi = from[i + 3 * stride];
-      to[i] = sign[i] * x;
-      to[i + to_stride] = sign[i] * y;
-      to[i + 2 * to_stride] = sign[i] * z;
-      to[i + 3 * to_stride] = sign[i] * (scale * psi + shift[0] * x + shift[1] * y + shift[2] * z);
-    } else {
-      for (int column = 0; column < Field::n_columns; ++column)
-        to[i + column * to_stride] = sign[i] * from[i + column * stride];
-    }
-  }
+  for (int i = team.team_rank(); i < n; i += team.team_size())
+    gather_row<Field>(from + i, stride, sign[i], scale, shift, to + i, to_stride);
 }
 
 /// potential[plane][n_padded] += field of a run of sources at the surface of that size about a box's centre. Begins and

@@ -107,21 +107,14 @@ struct TransferProducts {
   KOKKOS_INLINE_FUNCTION void gather(const DeviceOperatorSet<Real>& operators, const int from, const int to,
                                      const int n, const int lane, const int n_threads, Columns* columns) const {
     if (from >= to) return;
-    const int stride = passes.coefficients.stride;
     for (int i = lane; i < n; i += n_threads) {
       Columns group{};
       for (int k = 0; k < math::smaller(group_pairs, to - from); ++k) {
         const FarPair pair = passes.v_list.entries(passes.far_order(from + k));
-        const Real* const source = passes.source_of(pair.source) + i;
-        const Real sign = operators.sign_of(reflected_axes(pair.transfer))[i];
-        Real* const column = group.value + k * Field::n_columns;
-        for (int c = 0; c < Field::n_columns; ++c) column[c] = sign * source[c * stride];
-        // The fourth column of a field that shifts is moved to the centre of the other box, as in team_gather.
-        if constexpr (Field::shifts) {
-          Real shifted = source[3 * stride];
-          for (int c = 0; c < 3; ++c) shifted += Real(2 * pair.transfer[c]) * source[c * stride];
-          column[3] = sign * shifted;
-        }
+        const Real shift[3] = {Real(2 * pair.transfer[0]), Real(2 * pair.transfer[1]), Real(2 * pair.transfer[2])};
+        gather_row<Field>(passes.source_of(pair.source) + i, passes.coefficients.stride,
+                          operators.sign_of(reflected_axes(pair.transfer))[i], Real(1), shift,
+                          group.value + k * Field::n_columns, 1);
       }
       columns[i] = group;
     }

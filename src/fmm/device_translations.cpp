@@ -88,16 +88,11 @@ void run_m2m(const Space& space, const Passes<Space, Real, Field>& passes, const
             for (int k = 0; k < count; ++k) {
               const Box& box = passes.boxes(first + k);
               if (box.sources.count == 0) continue;
-              const Real* const from = passes.source_of(first + k) + i;
-              const Real sign = below.sign_of(7 & ~box.octant)[i];
-              Real* const column = group.value + k * Field::n_columns;
-              for (int c = 0; c < Field::n_columns; ++c) column[c] = sign * from[c * stride];
               // In the parent's units the child's centre is half a unit off along each axis, and psi half as large.
-              if constexpr (Field::shifts) {
-                Real shifted = Real(0.5) * from[3 * stride];
-                for (int c = 0; c < 3; ++c) shifted += Real(0.5) * Real(child_side(box.octant, c)) * from[c * stride];
-                column[3] = sign * shifted;
-              }
+              Real shift[3];
+              for (int c = 0; c < 3; ++c) shift[c] = Real(0.5) * Real(child_side(box.octant, c));
+              gather_row<Field>(passes.source_of(first + k) + i, stride, below.sign_of(7 & ~box.octant)[i], Real(0.5),
+                                shift, group.value + k * Field::n_columns, 1);
             }
             in(i) = group;
           }

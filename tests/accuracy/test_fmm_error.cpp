@@ -311,17 +311,28 @@ TEST(FmmCheck, MeasuresTheErrorAndMendsOrStops) {
   EXPECT_EQ(bad.error_record().n_misses, 1);
 }
 
-TEST(FmmCheck, RaisesTheOrderAndLeavesNothingOfTheMissInTheSum) {
-  PointForces from = with_forces(make_tube(300), 1e-5, 12);
-  from.force.assign(from.force.size(), {1.0, 0.3, -0.2});  // far fields that add up
-  const Sources sources = on_device(from);
-  const Vectors velocity("velocity", from.position.size()), exact("exact", from.position.size());
+/// Forces whose far fields add up.
+PointForces align(PointForces from) {
+  from.force.assign(from.force.size(), {1.0, 0.3, -0.2});
+  return from;
+}
+
+/// @param cutoff  far too large, until the order is raised
+FmmOptions make_options_that_miss(const double tolerance, const double cutoff) {
   FmmOptions options;
-  options.tolerance = 3e-3;
+  options.tolerance = tolerance;
   options.order = 4;
   options.leaf_size = 30;
-  options.singular_cutoff = 0.5;  // cut far too short, until the order is raised
+  options.singular_cutoff = cutoff;
   options.check_every = 1;
+  return options;
+}
+
+TEST(FmmCheck, RaisesTheOrderAndLeavesNothingOfTheMissInTheSum) {
+  const PointForces from = align(with_forces(make_tube(300), 1e-5, 12));
+  const Sources sources = on_device(from);
+  const Vectors velocity("velocity", from.position.size()), exact("exact", from.position.size());
+  const FmmOptions options = make_options_that_miss(3e-3, 0.5);
   FmmMobility fmm(viscosity, options);
   fmm.add_velocity(sources, sources.position, velocity);
   DirectMobility(viscosity, Precision::in_double).add_velocity(sources, sources.position, exact);
@@ -338,14 +349,8 @@ TEST(FmmCheck, RaisesTheOrderAndLeavesNothingOfTheMissInTheSum) {
 // Forces whose far fields add up miss; those that cancel do not.
 TEST(FmmCheck, LowersTheOrderAgainWhenChecksAllowIt) {
   const PointForces random = with_forces(make_tube(300), 1e-5, 12);
-  PointForces aligned = random;
-  aligned.force.assign(aligned.force.size(), {1.0, 0.3, -0.2});
-  FmmOptions options;
-  options.tolerance = 4e-3;
-  options.order = 4;
-  options.leaf_size = 30;
-  options.singular_cutoff = 0.1;  // cut far too short, until the order is raised
-  options.check_every = 1;
+  const PointForces aligned = align(random);
+  const FmmOptions options = make_options_that_miss(4e-3, 0.1);
   FmmMobility fmm(viscosity, options);
   const Vectors velocity("velocity", random.position.size()), exact("exact", random.position.size());
   const auto evaluate = [&](const PointForces& from) {
