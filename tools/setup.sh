@@ -23,6 +23,8 @@ fuzzing_packages=(clang-14 libclang-rt-14-dev)
 movie_packages=(ffmpeg)
 viewer_packages=(libjs-three)
 browser_packages=(chromium)
+# Pages as a site: Sphinx with its theme and MyST, Doxygen for C++, KaTeX for formulas.
+site_packages=(python3-sphinx furo python3-myst-parser doxygen libjs-katex libjs-three)
 
 usage() {
   cat <<'TEXT'
@@ -36,12 +38,13 @@ built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler, SKE
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
   --with-tests     also install what only running the tests needs (ParaView, strace, clang-format and clang-tidy 14), and
-                   what --with-python and --with-viewer do
+                   what --with-python, --with-viewer and --with-site do
   --with-python    also install pybind11, Python's headers and SciPy: for `import skein`, which runs and computes
   --with-fuzzing   also install clang 14 with libFuzzer, which only tools/torture.sh needs
-  --with-movies    also install ffmpeg, which only `skein movie` needs
+  --with-movies    also install ffmpeg, which only `skein plot --movie` needs
   --with-viewer    also install three.js, which `skein view` and `skein report` put into their pages
   --with-browser   also install Chromium (120 MB), in which the tests then open such a page
+  --with-site      also install Sphinx, furo, MyST, Doxygen and KaTeX, which only tools/site.sh needs
   --print-kokkos   print nothing but Kokkos' prefix on stdout; messages go to stderr
   --help           this text
 
@@ -302,12 +305,15 @@ while (($#)); do
       ;;
     --backend=*) backend=${1#*=} ;;
     --serial) backend=serial ;;
-    --with-tests) packages+=("${test_packages[@]}" "${python_packages[@]}" "${viewer_packages[@]}") ;;
+    --with-tests)
+      packages+=("${test_packages[@]}" "${python_packages[@]}" "${viewer_packages[@]}" "${site_packages[@]}")
+      ;;
     --with-python) packages+=("${python_packages[@]}") ;;
     --with-fuzzing) packages+=("${fuzzing_packages[@]}") ;;
     --with-movies) packages+=("${movie_packages[@]}") ;;
     --with-viewer) packages+=("${viewer_packages[@]}") ;;
     --with-browser) packages+=("${browser_packages[@]}") ;;
+    --with-site) packages+=("${site_packages[@]}") ;;
     --print-kokkos) only_prefix=true ;;
     -h | --help) usage && exit ;;
     *) fail "unknown option '$1'; --help lists the options." ;;

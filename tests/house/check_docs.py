@@ -1,7 +1,8 @@
 """usage: check_docs.py ROOT
 
 What the pages say of files is true: links between pages, to their headings and to files lead somewhere, and every path of a
-file in backticks that begins with a folder of the sources, or with a room of src, is there.
+file in backticks that begins with a folder of the sources, or with a room of src, is there; and docs/index.md, of which the
+site's contents are made, lists every page of docs.
 """
 
 import re
@@ -67,6 +68,8 @@ def main(root):
     problems = [problem for name in pages for problem in find_problems(root, name, files)]
     for problem in problems:
         print(problem)
+    problems += [f"docs/index.md: {name} is not in its lists" for name in pages if name.startswith("docs/") and
+                 name != "docs/index.md" and f"({name.removeprefix('docs/')})" not in (root / "docs/index.md").read_text()]
     print(f"{len(pages)} pages, {len(problems)} problems")
     return 1 if problems or len(pages) < 10 else 0
 

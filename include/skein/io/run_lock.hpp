@@ -16,7 +16,7 @@ class RunLock {
   ///         whether that lives cannot be known: where the file system may be shared with other machines.
   /// @throws Error(io_error) if the lock cannot be written.
   explicit RunLock(const RunFolder& folder) : RunLock(folder.lock()) {}
-  /// @param file  in a folder that is there
+  /// @param lock_file  in a folder that is there
   explicit RunLock(std::filesystem::path lock_file);
   ~RunLock();
   RunLock(const RunLock&) = delete;

@@ -22,7 +22,7 @@ std::string encode_start(const std::vector<double>& position, double time);
 /// xxh3 of the file, 16 hexadecimal digits: what StartConfig holds.
 std::string checksum_of_start(std::string_view bytes);
 
-/// Where the start with this checksum lies: start-<checksum>.checkpoint beside the scene.
+/// Where the start with this checksum lies: start-CHECKSUM.checkpoint beside the scene.
 std::filesystem::path find_start(const std::filesystem::path& folder, std::string_view checksum);
 
 /// @param file  for messages

@@ -33,7 +33,7 @@ class ControlledIntegrator : public Integrator {
   virtual Attempt attempt(double time, double dt) = 0;
 
   /// Before the first attempt of a step, and again after each that was rejected.
-  /// @param fault  why the attempt was rejected, where a node is to blame
+  /// The latter is told why, where a node is to blame: the fault.
   virtual void prepare(double time, const ConstVectors& position, const ConstVectors& velocity) = 0;
   virtual void prepare_again(double time, const ConstVectors& position, const ConstVectors& velocity,
                              const std::string& fault) = 0;

@@ -19,7 +19,7 @@ class Frame(NamedTuple):
     """All nodes at one moment."""
 
     step: int  #: accepted steps before it
-    time: float
+    time: float  #: at which it was saved
     position: np.ndarray  #: [n_nodes, 3], length
     centreline: np.ndarray  #: [n_sections, 3], the sections' centroids, length
     curvature: np.ndarray  #: [n_sections], unsigned, 1 / length
@@ -36,7 +36,7 @@ class Run:
         run.centrelines[-1]                 # [n_sections, 3] of the last frame
         run.series["energy"]                # [n_steps, n_fibers]
         run.diagnostics["fiber_0/angle"]    # [n_frames], of `skein analyze`
-        run.scene["fiber"]["length"]
+        run.scene["fiber"]["sections"]
     """
 
     def __init__(self, folder, tables=None):
