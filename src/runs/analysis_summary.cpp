@@ -3,6 +3,7 @@
 #include <skein/fibers/node_orbits.hpp>
 
 #include "runs/run_analysis.hpp"
+#include "runs/swimming.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,16 @@ std::string describe_growth(const char* what, const LineFit& growth, const doubl
                      growth.n_points);
 }
 
+std::string describe_swimming(const std::optional<Swimming>& swimming) {
+  if (!swimming) return {};
+  const Vec3 u = swimming->velocity;
+  return fmt::format(
+      "  swims at {:.4g}, velocity ({:.4g}, {:.4g}, {:.4g}), mean from t = {:.4g} to {:.4g}\n"
+      "  power {:.4g}; towing it straight at this speed takes {:.3g}: efficiency {:.3g} %\n",
+      norm(u), u.x, u.y, u.z, swimming->begin, swimming->end, swimming->power, swimming->towing_power,
+      100.0 * swimming->efficiency());
+}
+
 std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber) {
   const FiberSummary summary = analysis.histories[fiber].summarize();
   std::string text = fmt::format("fiber {}: regime {}\n  regimes:", fiber, name_of(summary.regime));
@@ -84,6 +95,7 @@ std::string describe_fiber(const RunAnalysis& analysis, const std::size_t fiber)
       summary.out_of_flow_plane_max ? fmt::format(", out of the flow's {:.3g}", *summary.out_of_flow_plane_max) : "");
   text += describe_growth("out-of-plane growth rate", summary.out_of_plane_growth, 0.0);
   text += describe_growth("buckling: deflection grows at rate", summary.deflection_growth, exponential);
+  text += describe_swimming(measure_swimming(analysis, fiber));
   if (!analysis.forces.empty()) {
     double energy = 0.0, viscosity = 0.0;
     const auto& forces = analysis.forces[fiber];
@@ -124,6 +136,19 @@ void write_hooks(JsonWriter& json, const std::optional<Snaking>& snaking) {
   json.member("snaking_from", snaking->begin).member("snaking_to", snaking->end);
 }
 
+void write_swimming(JsonWriter& json, const std::optional<Swimming>& swimming) {
+  json.key("swimming");
+  if (!swimming) {
+    json.null();
+    return;
+  }
+  const Vec3 u = swimming->velocity;
+  json.begin_object().member("from", swimming->begin).member("to", swimming->end);
+  json.key("velocity").begin_array().value(u.x).value(u.y).value(u.z).end_array();
+  json.member("power", swimming->power).member("towing_power", swimming->towing_power);
+  json.member("efficiency", swimming->efficiency()).end_object();
+}
+
 void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_t fiber) {
   const FiberSummary summary = analysis.histories[fiber].summarize();
   json.begin_object().member("fiber", fiber).member("regime", name_of(summary.regime));
@@ -133,6 +158,7 @@ void write_fiber(JsonWriter& json, const RunAnalysis& analysis, const std::size_
   json.key("stretch").begin_array().value(summary.stretch_min).value(summary.stretch_max).end_array();
   json.member("wave", name_of(summary.wave)).member("tracks", summary.tracks.size());
   write_hooks(json, summary.snaking);
+  write_swimming(json, measure_swimming(analysis, fiber));
   json.member("symmetry_defect", summary.symmetry_defect_max).member("out_of_plane", summary.out_of_plane_max);
   json.key("out_of_flow_plane");
   summary.out_of_flow_plane_max ? json.value(*summary.out_of_flow_plane_max) : json.null();

@@ -40,7 +40,17 @@ void add_hook(Columns& columns, const char* radius_name, const char* place_name,
   columns.add(place_name, "length", [&](const std::size_t i) { return hooks[i] ? hooks[i]->arclength : none; });
 }
 
+void add_vector(Columns& columns, const char* const (&names)[3], const char* unit,
+                const std::vector<ForceRecord>& forces, Vec3 ForceRecord::*const vector) {
+  columns.add(names[0], unit, [&](const std::size_t i) { return (forces[i].*vector).x; });
+  columns.add(names[1], unit, [&](const std::size_t i) { return (forces[i].*vector).y; });
+  columns.add(names[2], unit, [&](const std::size_t i) { return (forces[i].*vector).z; });
+}
+
 void add_forces(Columns& columns, const std::vector<ForceRecord>& forces) {
+  add_vector(columns, {"middle_x", "middle_y", "middle_z"}, "length", forces, &ForceRecord::middle);
+  add_vector(columns, {"force_x", "force_y", "force_z"}, "force", forces, &ForceRecord::force);
+  add_vector(columns, {"torque_x", "torque_y", "torque_z"}, "force*length", forces, &ForceRecord::torque);
   columns.add("energy", "force*length", [&](const std::size_t i) { return forces[i].energy; });
   columns.add("elastic_power", "force*length/time", [&](const std::size_t i) { return forces[i].power.elastic(); });
   columns.add("background_power", "force*length/time", [&](const std::size_t i) { return forces[i].power.background; });

@@ -45,6 +45,11 @@ std::vector<ForceRecord> probe_forces(const Physics& physics, const Frame& frame
       for (std::size_t c = 0; c < moment.size(); ++c) moments[i][c] += moment[c];
     }
     ForceRecord record;
+    record.middle = middle;
+    for (int node = 0; node < fiber.n_nodes(); ++node) {
+      record.force = record.force + part(f)[node];
+      record.torque = record.torque + cross(part(x)[node] - middle, part(f)[node]);
+    }
     record.energy = energy[i];
     record.power = compute_power_balance(part(f), part(u), part(b));
     record.power.drive = drive[i];

@@ -17,6 +17,8 @@ inline constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// What the forces of one fiber do at one moment.
 struct ForceRecord {
+  Vec3 middle;          ///< the mean of the fiber's nodes, length
+  Vec3 force, torque;   ///< of the fiber on the fluid: their sum, and their torque about the middle, force (* length)
   double energy = 0.0;  ///< of all forces that have one, force * length
   PowerBalance power;
   Matrix3 stresslet{};                  ///< force * length

@@ -215,7 +215,14 @@ void expect_close_texts(const std::string& a, const std::string& b) {
   EXPECT_EQ(i == a.size(), j == b.size());
 }
 
-/// The rows of a table by its columns, without those of the particle stress, which is a tensor.
+/// True for columns of what turns with a scene: the particle stress, which is a tensor, and vectors.
+bool turns(const std::string& column) {
+  for (const char* name : {"stresslet_", "middle_", "force_", "torque_"})
+    if (column.rfind(name, 0) == 0) return true;
+  return false;
+}
+
+/// The rows of a table by its columns, without those that turn.
 void expect_close_tables(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::ifstream first(a), second(b);
   std::string line, other, name, value, same;
@@ -230,7 +237,7 @@ void expect_close_tables(const std::filesystem::path& a, const std::filesystem::
     for (const std::string& column : names) {
       std::getline(fields, value, ',');
       std::getline(others, same, ',');
-      if (column.rfind("stresslet", 0) == 0 || (value.empty() && same.empty())) continue;
+      if (turns(column) || (value.empty() && same.empty())) continue;
       expect_close(std::stod(value), std::stod(same), column + " of row " + std::to_string(n_rows));
     }
     ++n_rows;
@@ -270,6 +277,11 @@ void expect_turned(const RunAnalysis& a, const RunAnalysis& b, const RigidMotion
           difference += std::pow(expected[p][q] - found[p][q], 2);
         }
       EXPECT_LE(difference, 1e-14 * size + 1e-30) << "particle stress";
+      for (const auto vector : {&ForceRecord::middle, &ForceRecord::force, &ForceRecord::torque}) {
+        const Vec3 turned = motion.turn(a.forces[f][i].*vector), other_vector = b.forces[f][i].*vector;
+        const double scale = vector == &ForceRecord::middle ? 1.0 : std::sqrt(size) / 0.1;
+        EXPECT_LE(norm(turned - other_vector), 1e-7 * (norm(turned) + scale) + 1e-16) << "vectors of the forces";
+      }
     }
   }
 }
