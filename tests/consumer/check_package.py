@@ -24,6 +24,13 @@ def main(cpack, configuration, folder):
     for needed in ("libc6", "libhdf5", "python3-h5py", "python3-matplotlib"):
         assert needed in fields["Depends"], f"{needed} is not in {fields['Depends']}"
 
+    # What Python compiles goes with the package: postinst compiles it, prerm removes it.
+    call("dpkg-deb", "-e", package, folder / "control")
+    for script, does in (("postinst", "py3compile -p skein"), ("prerm", "py3clean -p skein")):
+        path = folder / "control" / script
+        assert path.stat().st_mode & 0o777 == 0o755 and does in path.read_text(), script
+    assert "libjs-three" in fields["Recommends"], fields
+
     call("dpkg-deb", "-x", package, folder / "root")
     usr = folder / "root/usr"
     files = {str(path.relative_to(usr)) for path in usr.rglob("*") if path.is_file()}

@@ -14,7 +14,7 @@ class Arrows {
       fastest = Math.max(fastest, Math.hypot(this.velocities[i], this.velocities[i + 1], this.velocities[i + 2]));
     this.scale = fastest > 0 ? (0.85 * flow.widest) / fastest : 0;
     this.width = Math.min(0.045 * flow.widest, 0.12 * flow.narrowest);
-    const material = new THREE.MeshStandardMaterial({ color: 0x8aa0b4, transparent: true, opacity: 0.55, depthWrite: false });
+    const material = new THREE.MeshLambertMaterial({ color: 0x8aa0b4, transparent: true, opacity: 0.55, depthWrite: false });
     this.mesh = new THREE.InstancedMesh(this.makeShape(), material, this.n);
     this.mesh.frustumCulled = false;
     this.mesh.renderOrder = 1;
@@ -41,6 +41,8 @@ class Arrows {
   update(time) {
     let k = 0;
     while (k + 1 < this.times.length && Math.abs(this.times[k + 1] - time) <= Math.abs(this.times[k] - time)) ++k;
+    if (k === this.shown) return;
+    this.shown = k;
     const matrix = new THREE.Matrix4(), forward = new THREE.Vector3(0, 0, 1), turn = new THREE.Quaternion();
     for (let i = 0; i < this.n; ++i) {
       const velocity = new THREE.Vector3().fromArray(this.velocities, 3 * (k * this.n + i));

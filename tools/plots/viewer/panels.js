@@ -22,7 +22,8 @@ class Panel {
   constructor(canvas, title, goTo) {
     this.canvas = canvas;
     this.title = title;
-    this.picture = document.createElement("canvas");  // all but the line of the moment
+    this.line = canvas.parentElement.appendChild(document.createElement("div"));  // of the moment; moves without painting
+    this.line.className = "moment";
     const seek = (event) => {
       const x = event.offsetX - panelLeft, width = canvas.clientWidth - panelLeft - panelRight;
       const [low, high] = [view.times[0], view.times[nFrames - 1]];
@@ -35,11 +36,9 @@ class Panel {
   /// @param low, high  of the vertical axis  @param draw  (context, x of a time, y of a value, inner box)
   paint(low, high, draw) {
     const ratio = window.devicePixelRatio || 1, { clientWidth: width, clientHeight: height } = this.canvas;
-    for (const canvas of [this.canvas, this.picture]) {
-      canvas.width = Math.max(1, Math.round(width * ratio));
-      canvas.height = Math.max(1, Math.round(height * ratio));
-    }
-    const context = this.picture.getContext("2d");
+    this.canvas.width = Math.max(1, Math.round(width * ratio));
+    this.canvas.height = Math.max(1, Math.round(height * ratio));
+    const context = this.canvas.getContext("2d");
     context.scale(ratio, ratio);
     const box = { left: panelLeft, top: panelTop, width: width - panelLeft - panelRight, height: height - panelTop - panelBottom };
     const [start, end] = [view.times[0], view.times[nFrames - 1]];
@@ -62,7 +61,8 @@ class Panel {
     context.textAlign = "right";
     if (high > low)
       for (const value of chooseTicks(low, high, 4)) context.fillText(roundNumber(value), box.left - 5, yOf(value) + 4);
-    this.box = box;
+    this.line.style.top = `${box.top}px`;
+    this.line.style.height = `${box.height}px`;
   }
 
   say(words) {
@@ -73,13 +73,7 @@ class Panel {
   }
 
   showMoment(time) {
-    const context = this.canvas.getContext("2d"), ratio = window.devicePixelRatio || 1;
-    context.setTransform(1, 0, 0, 1, 0, 0);
-    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    context.drawImage(this.picture, 0, 0);
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.fillStyle = "#d62728";
-    context.fillRect(this.xOf(time) - 0.75, this.box.top, 1.5, this.box.height);
+    this.line.style.transform = `translateX(${this.xOf(time) - 0.75}px)`;
   }
 }
 

@@ -24,6 +24,7 @@ class Player {
       if ([...element(name).options].some((option) => option.value === asked.get(name))) element(name).value = asked.get(name);
     element("follow").checked = asked.get("follow") !== "no";
     this.listen();
+    this.showLegend();
     this.paintPanels();
     this.goTo(Math.min(view.times[nFrames - 1], Math.max(view.times[0], +asked.get("t") || 0)));
     this.lookFrom(element("camera").value);
@@ -46,7 +47,7 @@ class Player {
   listen() {
     element("play").onclick = () => (this.isPlaying ? this.pause() : this.play());
     element("scrub").oninput = (event) => { this.pause(); this.goTo(view.times[+event.target.value]); };
-    element("colour").onchange = () => this.goTo(this.time);
+    element("colour").onchange = () => { this.showLegend(); this.goTo(this.time); };
     element("fiber").onchange = () => { this.paintPanels(); this.goTo(this.time); };
     element("camera").onchange = (event) => this.lookFrom(event.target.value);
     element("arrows").onchange = () => this.goTo(this.time);
@@ -62,13 +63,15 @@ class Player {
 
   lookFrom(place) {
     const { low, high, half } = this.extent;
-    if (element("follow").checked) {  // what is there at this moment fills the view
+    const { stage } = this, thickest = Math.max(...view.radius);
+    if (element("follow").checked) {  // what is there at this moment fills the view; one fiber may turn and stays in it
       const middle = middleAt(findMoment(this.time));
-      const now = this.places.reduce((size, c, i) => Math.max(size, Math.abs(c - middle[i % 3])), Math.max(...view.radius));
-      return this.stage.lookFrom(place, middle, now);
+      const now = this.places.reduce((size, c, i) => Math.max(size, Math.abs(c - middle[i % 3])), thickest);
+      const distance = nFibers > 1 ? stage.distanceOfPoints(place, middle, this.places) + 4 * thickest : stage.distanceOfBall(now);
+      return stage.lookFrom(place, middle, distance);
     }
     const drift = Math.max(...low.map((c, i) => 0.5 * (high[i] - c)));
-    this.stage.lookFrom(place, low.map((c, i) => 0.5 * (c + high[i])), half + drift);
+    stage.lookFrom(place, low.map((c, i) => 0.5 * (c + high[i])), stage.distanceOfBall(half + drift));
   }
 
   paintPanels() {
@@ -116,7 +119,6 @@ class Player {
     if (element("follow").checked) this.stage.follow(middleAt(moment));
     this.stage.render();
     for (const panel of this.panels) panel.showMoment(time);
-    this.showLegend();
     element("scrub").value = nearest;
     element("time").textContent = `t = ${time.toPrecision(4)}`;
     document.body.dataset.frame = nearest;
@@ -152,15 +154,14 @@ class Player {
 
 function begin() {
   const start = performance.now();
-  let player;
   try {
-    player = new Player();
+    window.player = new Player();  // also for the console
   } catch (error) {
     element("stage").textContent = `The fibers cannot be drawn in this browser: ${error.message}`;
     throw error;
   }
   document.body.dataset.seconds = (1e-3 * (performance.now() - start)).toFixed(2);
-  if (location.hash === "#check") check(player);
+  if (location.hash === "#check") check(window.player);
 }
 
 /// For tests: how many pixels the fibers cover, and the whole run played eight times as fast.

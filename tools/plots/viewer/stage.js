@@ -10,10 +10,16 @@ const cameraPlaces = {
   oblique: { words: "oblique", from: [0.55, 0.45, 0.75], up: [0, 1, 0] },
 };
 
+/// Does a processor draw? It takes half of its time to smooth edges.
+function isDrawnBySoftware() {
+  const gl = document.createElement("canvas").getContext("webgl"), named = gl && gl.getExtension("WEBGL_debug_renderer_info");
+  return Boolean(named) && /swiftshader|llvmpipe|softpipe|software/i.test(gl.getParameter(named.UNMASKED_RENDERER_WEBGL));
+}
+
 class Stage {
   constructor(holder) {
     this.holder = holder;
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: !isDrawnBySoftware() });
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
     this.renderer.setClearColor(0xfafafa);
     holder.insertBefore(this.renderer.domElement, holder.firstChild);
@@ -28,13 +34,31 @@ class Stage {
     this.resize();
   }
 
-  /// @param middle  [3]  @param half  of the box to be seen, length
-  lookFrom(place, middle, half) {
-    const { from, up } = cameraPlaces[place], distance = (1.08 * half) / Math.sin((Math.PI / 180) * 15);
-    const size = Math.hypot(...from), aspect = Math.min(1, this.camera.aspect);
+  /// From how far a ball fills the view. @param half  its radius, length
+  distanceOfBall(half) {
+    return (1.08 * half) / Math.sin((Math.PI / 180) * 15) / Math.min(1, this.camera.aspect);
+  }
+
+  /// From how far points fill the view. @param points  [points][3]
+  distanceOfPoints(place, middle, points) {
+    const { from, up } = cameraPlaces[place], back = new THREE.Vector3(...from).normalize();
+    const right = new THREE.Vector3(...up).cross(back).normalize(), over = back.clone().cross(right);
+    const slope = Math.tan((Math.PI / 180) * 15) / 1.1, point = new THREE.Vector3(), origin = new THREE.Vector3(...middle);
+    let distance = 0;
+    for (let i = 0; i < points.length; i += 3) {
+      point.fromArray(points, i).sub(origin);
+      const seen = Math.max(Math.abs(point.dot(over)), Math.abs(point.dot(right)) / this.camera.aspect);
+      distance = Math.max(distance, seen / slope + point.dot(back));
+    }
+    return distance;
+  }
+
+  /// @param middle  [3] of what is looked at
+  lookFrom(place, middle, distance) {
+    const { from, up } = cameraPlaces[place], size = Math.hypot(...from);
     this.camera.up.set(...up);
     this.controls.target.set(...middle);
-    this.camera.position.set(...middle.map((c, i) => c + (from[i] / size) * (distance / aspect)));
+    this.camera.position.set(...middle.map((c, i) => c + (from[i] / size) * distance));
     this.camera.near = 1e-3 * distance;
     this.camera.far = 1e2 * distance;
     this.camera.updateProjectionMatrix();
@@ -59,11 +83,12 @@ class Stage {
 
   render() {
     this.renderer.render(this.scene, this.camera);
-    this.drawAxes(document.getElementById("axes"));
+    if (!this.drawnFrom || !this.drawnFrom.equals(this.camera.quaternion)) this.drawAxes(document.getElementById("axes"));
   }
 
   drawAxes(canvas) {
-    const context = canvas.getContext("2d"), turn = this.camera.quaternion.clone().inverse();
+    this.drawnFrom = this.camera.quaternion.clone();
+    const context = canvas.getContext("2d"), turn = this.drawnFrom.clone().inverse();
     context.clearRect(0, 0, canvas.width, canvas.height);
     context.font = "12px sans-serif";
     const axes = [["x", "#c0392b", 1, 0, 0], ["y", "#27803b", 0, 1, 0], ["z", "#2b59c3", 0, 0, 1]].map(

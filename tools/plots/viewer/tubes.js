@@ -4,37 +4,39 @@
 
 class Tubes {
   constructor() {
-    this.sides = nPoints > 20000 ? 6 : nPoints > 4000 ? 8 : 14;
+    this.sides = nPoints > 8000 ? 6 : nPoints > 800 ? 8 : 14;
     this.rows = nPoints + 4 * nFibers;  // two more at each end: the rim once more, and the middle
     const nVertices = this.rows * this.sides;
     this.position = new Float32Array(3 * nVertices);
-    this.normal = new Float32Array(3 * nVertices);
+    this.normal = new Int8Array(3 * nVertices);
     this.colour = new Uint8Array(3 * nVertices);
     this.geometry = new THREE.BufferGeometry();
     this.geometry.setAttribute("position", new THREE.BufferAttribute(this.position, 3));
-    this.geometry.setAttribute("normal", new THREE.BufferAttribute(this.normal, 3));
+    this.geometry.setAttribute("normal", new THREE.BufferAttribute(this.normal, 3, true));
     this.geometry.setAttribute("color", new THREE.BufferAttribute(this.colour, 3, true));
     this.geometry.setIndex(new THREE.BufferAttribute(this.makeTriangles(), 1));
-    const material = new THREE.MeshStandardMaterial({
-      vertexColors: THREE.VertexColors, roughness: 0.45, metalness: 0.05, side: THREE.DoubleSide });
+    // Lit at vertices: of tubes whose sides have normals of their own that looks the same, and costs software a fraction.
+    const material = new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors });
     this.mesh = new THREE.Mesh(this.geometry, material);
     this.mesh.frustumCulled = false;
-    this.circle = Array.from({ length: this.sides }, (_, k) => {
-      const angle = (2 * Math.PI * k) / this.sides;
-      return [Math.cos(angle), Math.sin(angle)];
-    });
+    const angles = Array.from({ length: this.sides }, (_, k) => (2 * Math.PI * k) / this.sides);
+    this.cosines = Float32Array.from(angles, Math.cos);
+    this.sines = Float32Array.from(angles, Math.sin);
   }
 
+  /// Front sides outwards.
   makeTriangles() {
     const triangles = [], n = this.sides;
-    let row = 0;
-    for (let fiber = 0; fiber < nFibers; ++fiber) {
-      for (let last = row + view.points[fiber] + 3; row < last; ++row)
-        for (let k = 0; k < n; ++k) {
-          const a = row * n + k, b = row * n + ((k + 1) % n);
-          triangles.push(a, b, a + n, b, b + n, a + n);
-        }
-      ++row;
+    for (let fiber = 0, row = 0; fiber < nFibers; ++fiber, row += 4) {  // middle, rim, the sides' rows, rim, middle
+      const end = row + view.points[fiber] + 2;
+      for (let k = 0; k < n; ++k) {
+        const next = (k + 1) % n;
+        triangles.push(row * n, (row + 1) * n + next, (row + 1) * n + k);
+        for (let i = row + 2; i + 1 < end; ++i)
+          triangles.push(i * n + k, i * n + next, (i + 1) * n + k, i * n + next, (i + 1) * n + next, (i + 1) * n + k);
+        triangles.push((end + 1) * n, end * n + k, end * n + next);
+      }
+      row += view.points[fiber];
     }
     return new Uint32Array(triangles);
   }
@@ -47,53 +49,56 @@ class Tubes {
     for (const name of ["position", "normal", "color"]) this.geometry.attributes[name].needsUpdate = true;
   }
 
+  /// Numbers only, and no small arrays: this runs for every point of every picture.
   updateFiber(fiber, row, places, colourAt) {
     const first = firstPoint[fiber], n = view.points[fiber], radius = view.radius[fiber];
-    const at = (i) => [places[3 * (first + i)], places[3 * (first + i) + 1], places[3 * (first + i) + 2]];
-    let across = null, along = null;
+    let ax = 1, ay = 0, az = 0;                       // along the centreline
+    let bx = 0, by = 0, bz = 0, isTurned = false;     // across it, turned along without twist
     for (let i = 0; i < n; ++i) {
-      along = this.direction(at(Math.max(i - 1, 0)), at(Math.min(i + 1, n - 1)), along);
-      across = this.turnAlong(across, along);
-      const third = [along[1] * across[2] - along[2] * across[1], along[2] * across[0] - along[0] * across[2],
-        along[0] * across[1] - along[1] * across[0]];
-      const centre = at(i), colour = colourAt(fiber, first + i), back = along.map((c) => -c);
-      if (i === 0) {
-        this.setRow(row++, centre, across, third, 0, colour, back);
-        this.setRow(row++, centre, across, third, radius, colour, back);
+      const here = 3 * (first + i), from = i > 0 ? here - 3 : here, to = i < n - 1 ? here + 3 : here;
+      const dx = places[to] - places[from], dy = places[to + 1] - places[from + 1], dz = places[to + 2] - places[from + 2];
+      const apart = Math.sqrt(dx * dx + dy * dy + dz * dz);
+      if (apart > 0) [ax, ay, az] = [dx / apart, dy / apart, dz / apart];
+      if (!isTurned) [bx, by, bz] = Math.abs(az) < 0.9 ? [0, 0, 1] : [1, 0, 0];
+      for (let isAcross = false; !isAcross;) {
+        const part = ax * bx + ay * by + az * bz;
+        const x = bx - part * ax, y = by - part * ay, z = bz - part * az, size = Math.sqrt(x * x + y * y + z * z);
+        isAcross = size > 1e-6;
+        if (isAcross) [bx, by, bz] = [x / size, y / size, z / size];
+        else [bx, by, bz] = Math.abs(ax) < 0.9 ? [1, 0, 0] : [0, 1, 0];  // a centreline that folds back on itself
       }
-      this.setRow(row++, centre, across, third, radius, colour, null);
+      isTurned = true;
+      const colour = colourAt(fiber, first + i), red = colour[0], green = colour[1], blue = colour[2];
+      const cx = ay * bz - az * by, cy = az * bx - ax * bz, cz = ax * by - ay * bx;
+      const x = places[here], y = places[here + 1], z = places[here + 2];
+      if (i === 0) {
+        this.setRow(row++, x, y, z, 0, bx, by, bz, cx, cy, cz, red, green, blue, -ax, -ay, -az);
+        this.setRow(row++, x, y, z, radius, bx, by, bz, cx, cy, cz, red, green, blue, -ax, -ay, -az);
+      }
+      this.setRow(row++, x, y, z, radius, bx, by, bz, cx, cy, cz, red, green, blue, 0, 0, 0);
       if (i === n - 1) {
-        this.setRow(row++, centre, across, third, radius, colour, along);
-        this.setRow(row++, centre, across, third, 0, colour, along);
+        this.setRow(row++, x, y, z, radius, bx, by, bz, cx, cy, cz, red, green, blue, ax, ay, az);
+        this.setRow(row++, x, y, z, 0, bx, by, bz, cx, cy, cz, red, green, blue, ax, ay, az);
       }
     }
     return row;
   }
 
-  direction(from, to, before) {
-    const d = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-    const size = Math.hypot(d[0], d[1], d[2]);
-    return size > 0 ? d.map((c) => c / size) : before || [1, 0, 0];
-  }
-
-  /// The direction across at the point before, turned with the centreline without twist.
-  turnAlong(before, along) {
-    const start = before || (Math.abs(along[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]);
-    const part = start[0] * along[0] + start[1] * along[1] + start[2] * along[2];
-    const across = start.map((c, i) => c - part * along[i]);
-    const size = Math.hypot(across[0], across[1], across[2]);
-    return size > 1e-6 ? across.map((c) => c / size) : this.turnAlong(Math.abs(along[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0], along);
-  }
-
-  setRow(row, centre, across, third, radius, colour, normal) {
-    for (let k = 0; k < this.sides; ++k) {
-      const [a, b] = this.circle[k], at = 3 * (row * this.sides + k);
-      for (let c = 0; c < 3; ++c) {
-        const out = a * across[c] + b * third[c];
-        this.position[at + c] = centre[c] + radius * out;
-        this.normal[at + c] = normal ? normal[c] : out;
-        this.colour[at + c] = colour[c];
-      }
+  /// A circle about a place, in the plane of b and c; normals are n, or outwards where that is zero.
+  setRow(row, x, y, z, radius, bx, by, bz, cx, cy, cz, red, green, blue, nx, ny, nz) {
+    const { position, normal, colour, cosines, sines, sides } = this, isFlat = nx !== 0 || ny !== 0 || nz !== 0;
+    for (let k = 0, at = 3 * row * sides; k < sides; ++k, at += 3) {
+      const cosine = cosines[k], sine = sines[k];
+      const ox = cosine * bx + sine * cx, oy = cosine * by + sine * cy, oz = cosine * bz + sine * cz;
+      position[at] = x + radius * ox;
+      position[at + 1] = y + radius * oy;
+      position[at + 2] = z + radius * oz;
+      normal[at] = 127 * (isFlat ? nx : ox);
+      normal[at + 1] = 127 * (isFlat ? ny : oy);
+      normal[at + 2] = 127 * (isFlat ? nz : oz);
+      colour[at] = red;
+      colour[at + 1] = green;
+      colour[at + 2] = blue;
     }
   }
 }
