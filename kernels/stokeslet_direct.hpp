@@ -3,6 +3,10 @@
 #include <skein/arrays/types.hpp>
 #include <skein/core/precision.hpp>
 
+#include "kernels/pair_rounds.hpp"
+
+#include <vector>
+
 namespace skein {
 
 /// velocity += sum over sources of the regularized Stokeslet, on the host; blobs belong to the sources. What GPUs do
@@ -25,6 +29,14 @@ void add_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSp
 void add_symmetric_stokeslet_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,
                                       const ConstVectorView<HostSpace>& force, const ConstScalarView<HostSpace>& blob,
                                       const VectorView<HostSpace>& velocity, double viscosity, Precision precision);
+
+/// The part of that sum which a block of rounds contributes, for processes that share it: overwrites the velocities of
+/// all nodes. Blocks are added up along their tree, so that the whole sum depends on nothing but the nodes.
+/// @param scratch  arrays as long as `velocity`; grows where it holds too few
+void compute_round_velocity(const HostSpace& space, const ConstVectorView<HostSpace>& position,
+                            const ConstVectorView<HostSpace>& force, const ConstScalarView<HostSpace>& blob,
+                            const PairRounds& rounds, const RoundBlock& block, const VectorView<HostSpace>& velocity,
+                            double viscosity, Precision precision, std::vector<HostVectors>& scratch);
 
 /// Below this many nodes the symmetric sum has too few tiles to keep threads busy.
 inline constexpr int min_symmetric_nodes = 256;

@@ -4,6 +4,7 @@
 #include "kernels/stokeslet_block.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -16,6 +17,15 @@ using simd::Pack;
 inline constexpr int side_nodes = 192;      // of a tile that are in flight at once
 inline constexpr int tile_step = 16;        // nodes: whole packs of floats
 inline constexpr int undivided_nodes = 48;  // at most block_targets
+
+/// Of n_nodes cut into n_tiles, at multiples of tile_step.
+inline IndexRange tile_run(const int tile, const int n_tiles, const int n_nodes) {
+  const auto edge = [=](const int t) {
+    const auto even = static_cast<int>(static_cast<std::int64_t>(n_nodes) * t / n_tiles);
+    return t < n_tiles ? even / tile_step * tile_step : n_nodes;
+  };
+  return {edge(tile), edge(tile + 1) - edge(tile)};
+}
 
 template <class Real>
 using Side = NodeTile<Real, side_nodes>;

@@ -5,7 +5,6 @@
 #include "kernels/stokeslet_exchange.hpp"
 #include "kernels/tournament.hpp"
 
-#include <cstdint>
 #include <vector>
 
 // Nodes are cut into n_tiles tiles. In round 0 each tile plays alone, in rounds 1 .. n_tiles - 1 a tournament pairs
@@ -16,14 +15,6 @@ namespace {
 
 constexpr int nodes_per_tile = 128;  // aimed at; few nodes make few tiles, many make max_tiles larger ones
 constexpr int max_tiles = 64;
-
-IndexRange tile_run(const int tile, const int n_tiles, const int n_nodes) {
-  const auto edge = [=](const int t) {
-    const auto even = static_cast<int>(static_cast<std::int64_t>(n_nodes) * t / n_tiles);
-    return t < n_tiles ? even / tile_step * tile_step : n_nodes;
-  };
-  return {edge(tile), edge(tile + 1) - edge(tile)};
-}
 
 std::vector<Match> make_matches(const int n_tiles) {
   std::vector<Match> matches;

@@ -19,6 +19,7 @@ plot_packages=(python3 python3-h5py python3-matplotlib python3-numpy)
 test_packages=(python3-paraview strace clang-format-14 clang-tidy-14)
 # The compiled part of the Python package, and what its tests compute with.
 python_packages=(pybind11-dev python3-dev python3-scipy)
+mpi_packages=(libopenmpi-dev openmpi-bin)
 fuzzing_packages=(clang-14 libclang-rt-14-dev)
 movie_packages=(ffmpeg)
 viewer_packages=(libjs-three)
@@ -38,8 +39,9 @@ built once into ${XDG_CACHE_HOME:-~/.cache}/skein. CXX chooses the compiler, SKE
   --backend NAME   openmp, serial, cuda or hip (default: whichever parallel backend is found, else openmp is built)
   --serial         the same as --backend serial: a Kokkos whose only backend is Serial
   --with-tests     also install what only running the tests needs (ParaView, strace, clang-format and clang-tidy 14), and
-                   what --with-python, --with-viewer and --with-site do
+                   what --with-python, --with-mpi, --with-viewer and --with-site do
   --with-python    also install pybind11, Python's headers and SciPy: for `import skein`, which runs and computes
+  --with-mpi       also install Open MPI, with which `mpirun -n 4 skein run ...` shares a run between processes
   --with-fuzzing   also install clang 14 with libFuzzer, which only tools/torture.sh needs
   --with-movies    also install ffmpeg, which only `skein plot --movie` needs
   --with-viewer    also install three.js, which `skein view` and `skein report` put into their pages
@@ -306,9 +308,10 @@ while (($#)); do
     --backend=*) backend=${1#*=} ;;
     --serial) backend=serial ;;
     --with-tests)
-      packages+=("${test_packages[@]}" "${python_packages[@]}" "${viewer_packages[@]}" "${site_packages[@]}")
+      packages+=("${test_packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${viewer_packages[@]}" "${site_packages[@]}")
       ;;
     --with-python) packages+=("${python_packages[@]}") ;;
+    --with-mpi) packages+=("${mpi_packages[@]}") ;;
     --with-fuzzing) packages+=("${fuzzing_packages[@]}") ;;
     --with-movies) packages+=("${movie_packages[@]}") ;;
     --with-viewer) packages+=("${viewer_packages[@]}") ;;

@@ -6,6 +6,7 @@
 #include <skein/scene/nearest_name.hpp>
 
 #include "cli/terminal.hpp"
+#include "mpi/launch.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -104,6 +105,7 @@ void add_verb(CLI::App& app, const Verb& verb) {
 void describe_program(CLI::App& app) {
   std::string build = describe_build();
   while (!build.empty() && build.back() == '\n') build.pop_back();
+  build += "\nMPI: " + describe_mpi();
   app.set_version_flag("-V,--version", build, "Print version, commit, compiler and Kokkos backends");
   app.require_subcommand(1);
   app.footer(
@@ -166,6 +168,17 @@ std::string describe_parse_error(const CLI::App& app, const CLI::ParseError& err
                      used.empty() ? "" : verb.get_name() + " ");
 }
 
+/// The verb's own action, unless several processes were started that would all do the same. One of them says so.
+std::function<int()> refuse_ranks(const Verb& verb) {
+  const Launch launch = find_launch();
+  if (launch.size <= 1) return verb.run;
+  if (launch.rank > 0) return [] { return static_cast<int>(ExitCode::usage); };
+  throw Error(ExitCode::usage,
+              fmt::format("{} ranks were started, and 'skein {}' has no use for them: start it without "
+                          "mpirun; 'run' and 'resume' take ranks",
+                          launch.size, verb.name));
+}
+
 }  // namespace
 
 std::function<int()> parse_command_line(const int n_arguments, char** arguments, const std::vector<Verb>& verbs) {
@@ -186,7 +199,8 @@ std::function<int()> parse_command_line(const int n_arguments, char** arguments,
     };
   }
   const std::string name = app.get_subcommands().front()->get_name();
-  return std::find_if(verbs.begin(), verbs.end(), [&](const Verb& verb) { return verb.name == name; })->run;
+  const auto verb = std::find_if(verbs.begin(), verbs.end(), [&](const Verb& one) { return one.name == name; });
+  return verb->takes_ranks ? verb->run : refuse_ranks(*verb);
 }
 
 }  // namespace skein

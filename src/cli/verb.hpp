@@ -73,6 +73,7 @@ struct Verb {
   std::vector<Argument> arguments;  ///< whose targets `run` owns
   std::string footer;               ///< of its help text: examples, then what else is to be known
   std::function<int()> run;         ///< does it; returns the exit code
+  bool takes_ranks = false;         ///< processes of an MPI launcher do it together
 };
 
 }  // namespace skein

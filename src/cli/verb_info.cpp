@@ -1,5 +1,6 @@
 #include <skein/core/json.hpp>
 #include <skein/core/terminal_text.hpp>
+#include <skein/io/read_file.hpp>
 #include <skein/io/run_folder.hpp>
 #include <skein/io/run_scene.hpp>
 #include <skein/io/run_summary.hpp>
@@ -12,8 +13,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 
 namespace skein {
 namespace {
@@ -23,17 +26,31 @@ struct InfoOptions {
   bool json = false;
 };
 
-void print_lines(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
-  print_result(fmt::format("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nframes: {}\nsteps: {}\nsegments: {}\n",
-                           make_terminal_line(summary.title), make_terminal_line(summary.status),
-                           make_terminal_line(scene), mobility, summary.frames, summary.steps, summary.segments));
+/// The last line of the log that tells of ranks, without its time.
+std::string find_ranks(const RunFolder& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(folder.run_log(), ignored)) return "not known";
+  const std::string log = read_file(folder.run_log()), mark = "ranks: ";
+  const std::size_t last = log.rfind(mark);
+  if (last == std::string::npos) return "none, the run has one process";
+  const std::size_t first = last + mark.size();
+  return log.substr(first, log.find('\n', first) - first);
+}
+
+void print_lines(const std::string& scene, const std::string& mobility, const std::string& ranks,
+                 const RunSummary& summary) {
+  print_result(
+      fmt::format("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nranks: {}\nframes: {}\nsteps: {}\nsegments: {}\n",
+                  make_terminal_line(summary.title), make_terminal_line(summary.status), make_terminal_line(scene),
+                  mobility, make_terminal_line(ranks), summary.frames, summary.steps, summary.segments));
   if (std::isfinite(summary.last_time)) print_result(fmt::format("last time: {}\n", summary.last_time));
 }
 
-void print_json(const std::string& scene, const std::string& mobility, const RunSummary& summary) {
+void print_json(const std::string& scene, const std::string& mobility, const std::string& ranks,
+                const RunSummary& summary) {
   JsonWriter json(/*n_open_levels=*/1);
   json.begin_object().member("title", summary.title).member("status", summary.status);
-  json.member("scene", scene).member("mobility", mobility).member("frames", summary.frames);
+  json.member("scene", scene).member("mobility", mobility).member("ranks", ranks).member("frames", summary.frames);
   json.member("steps", summary.steps).member("segments", summary.segments).member("last_time", summary.last_time);
   print_result(json.end_object().take() + "\n");
 }
@@ -44,7 +61,8 @@ int print_info(const InfoOptions& options) {
   const std::string scene = folder.scene().string();
   const SceneConfig config = read_run_scene(folder);
   const std::string mobility = describe_choice(choose_mobility(config), config);
-  options.json ? print_json(scene, mobility, summary) : print_lines(scene, mobility, summary);
+  const std::string ranks = find_ranks(folder);
+  options.json ? print_json(scene, mobility, ranks, summary) : print_lines(scene, mobility, ranks, summary);
   return 0;
 }
 

@@ -6,9 +6,11 @@
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
+#include "mpi/launch.hpp"
 #include "runs/finished_run.hpp"
 #include "runs/resumption.hpp"
 #include "runs/run_control.hpp"
+#include "runs/shared_run.hpp"
 #include "runs/simulate.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +39,7 @@ int finish_run(const RunFolder& folder, const SceneConfig& scene, const Checkpoi
   return 0;
 }
 
-int resume_run(const ResumeOptions& options) {
+int resume_run(const ResumeOptions& options, Communicator* ranks) {
   const RunFolder folder = RunFolder::open_begun(options.folder);
   const Runtime runtime(options.threads);  // before anything is changed: there may be no such threads
   const RunLock lock(folder);
@@ -48,7 +50,7 @@ int resume_run(const ResumeOptions& options) {
 
   RunControl control(options.max_walltime);
   TerminalListener listener(options.quiet);
-  return static_cast<int>(simulate(run.scene, folder, run.checkpoint(), control, listener, run.first_words));
+  return static_cast<int>(simulate(run.scene, folder, run.checkpoint(), control, listener, run.first_words, ranks));
 }
 
 }  // namespace
@@ -68,6 +70,7 @@ Verb make_resume_verb() {
       "  skein resume tumbling\n"
       "  skein resume tumbling --max-walltime 8h --threads 2\n"
       "  skein resume tumbling --set time.end=24.0\n"
+      "  mpirun -n 4 skein resume tumbling\n"
       "The run goes on from its newest good checkpoint to its end, "
       "and is equal in every bit to one that was\n"
       "never interrupted. A checkpoint that is damaged or cannot be read is named and an older one used. A run that\n"
@@ -75,7 +78,12 @@ Verb make_resume_verb() {
       "over, and its index written anew if that is missing, damaged or old.\n"
       "The exit code is 0 if the end was reached, 75 if the run was stopped again, 65 if no checkpoint is good, 74 if\n"
       "none can be read.",
-      [options] { return resume_run(*options); }};
+      [options] {
+        options->threads = share_threads(options->threads);
+        return share_run(join_ranks(), options->threads,
+                         [&](Communicator* ranks) { return resume_run(*options, ranks); });
+      },
+      /*takes_ranks=*/true};
 }
 
 }  // namespace skein

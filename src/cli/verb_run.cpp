@@ -6,9 +6,11 @@
 #include "cli/terminal.hpp"
 #include "cli/terminal_listener.hpp"
 #include "cli/verbs.hpp"
+#include "mpi/launch.hpp"
 #include "runs/child_run.hpp"
 #include "runs/run_control.hpp"
 #include "runs/run_start.hpp"
+#include "runs/shared_run.hpp"
 #include "runs/simulate.hpp"
 #include "studies/plan.hpp"
 
@@ -58,7 +60,7 @@ void plan_scene(PlacedScene& placed, const double tolerance, const bool quiet) {
   placed.text = write_readable_scene(placed.config);
 }
 
-int run_scene(const RunOptions& options) {
+int run_scene(const RunOptions& options, Communicator* ranks) {
   NewRun run = make_run(options);
   PlacedScene& placed = run.placed;
   if (!run.what_happened.empty()) print_warning(run.what_happened);
@@ -75,7 +77,7 @@ int run_scene(const RunOptions& options) {
   const RunFolder folder = create_run_folder(run, options.scene, options.folder, options.overwrite, lock);
   if (!lock->note().empty()) print_warning(lock->note());
   TerminalListener listener(options.quiet);
-  return static_cast<int>(simulate(placed.config, folder, nullptr, control, listener, run.what_happened));
+  return static_cast<int>(simulate(placed.config, folder, nullptr, control, listener, run.what_happened, ranks));
 }
 
 }  // namespace
@@ -105,6 +107,7 @@ Verb make_run_verb() {
       "  skein run configs/lagrone2019_L0523.toml -o quick --plan 0.03\n"
       "  skein run --from tumbling -o softer --set time.end=24.0 --set fiber.spring_stiffness=0.005\n"
       "  skein run --from tumbling@5.45 other.toml -o other\n"
+      "  mpirun -n 4 skein run configs/lagrone2019_L228.toml -o shared\n"
       "With --from time goes on at the time of the earlier run, whose scene it is, with these changes, unless another "
       "one\n"
       "is named.\n"
@@ -112,7 +115,12 @@ Verb make_run_verb() {
       "Interrupts and what batch systems send (SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2, SIGALRM) stop it\n"
       "with a checkpoint, and so does a file STOP in the run folder; a file OUTPUT_NOW there makes a checkpoint and\n"
       "puts all frames so far on disk.",
-      [options] { return run_scene(*options); }};
+      [options] {
+        options->threads = share_threads(options->threads);
+        return share_run(join_ranks(), options->threads,
+                         [&](Communicator* ranks) { return run_scene(*options, ranks); });
+      },
+      /*takes_ranks=*/true};
 }
 
 }  // namespace skein

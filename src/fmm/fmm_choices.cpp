@@ -9,9 +9,9 @@
 
 namespace skein {
 
-std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path) {
+std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path, Communicator* ranks) {
   const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
-  if (is_on_host) return std::make_unique<FmmEvaluator>();
+  if (is_on_host) return std::make_unique<FmmEvaluator>(ranks);
   return make_device_fmm_sum();
 }
 

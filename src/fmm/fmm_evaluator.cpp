@@ -63,7 +63,7 @@ void FmmEvaluator::add_leaves(const Field& field, const std::vector<const Operat
                                            own_velocity_);
     return;
   }
-  if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree_);
+  if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree_, ranks_ == nullptr ? nullptr : &shares_);
   const int n_packed = near_matches_.n_packed();
   if (near_velocity_.extent_int(0) != 3 * n_packed)
     near_velocity_ =
@@ -97,7 +97,11 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
         Kokkos::view_alloc(std::string("skein::fmm_evaluator::target_coefficients"), Kokkos::WithoutInitializing),
         needed + needed / 8);
   }
-  compute_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients);
+  if (ranks_ == nullptr)
+    compute_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients);
+  else
+    compute_shared_coefficients<Real, Field>(tree_, sorted_, field, levels, coefficients, shares_,
+                                             [&] { exchange(coefficients); });
   statistics.far_seconds = watch.lap();
   with_near_precision<Real>(plan, [&](auto near) { add_leaves<decltype(near), Real>(field, levels, coefficients); });
   statistics.leaf_seconds = watch.lap();
@@ -121,6 +125,7 @@ void FmmEvaluator::require_tree(const OctreeRules& rules) {
   ++statistics.n_trees;
   tasks_ = make_target_tasks(tree_);
   near_matches_ = {};
+  has_shares_ = false;
   count_work();
 }
 
@@ -164,12 +169,14 @@ bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, con
     Kokkos::deep_copy(own_velocity_, 0.0);
   else
     own_velocity_ = HostVectors("skein::fmm_evaluator::fmm_velocity", nodes_.target.extent(0));
+  if (ranks_ != nullptr) require_shares(plan);
   sort_nodes(regularized_stokeslet::scale(viscosity));
   statistics.sort_seconds = watch.lap();
   if (plan.far_in_single)
     add_in<float>(options, plan, single_operators_, single_coefficients_);
   else
     add_in<double>(options, plan, operators_, coefficients_);
+  if (ranks_ != nullptr) gather_velocities();
   return true;
 }
 

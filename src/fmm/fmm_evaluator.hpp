@@ -18,6 +18,9 @@ struct HostNodes {
 /// The evaluation on the host, with its vector units; device arrays are copied.
 class FmmEvaluator final : public FmmSum {
  public:
+  /// @param ranks  that share the sum; null: none
+  explicit FmmEvaluator(Communicator* ranks) : ranks_(ranks) {}
+
   bool take(const Sources& sources, const ConstVectors& target) override;
   double largest_blob() const override { return blobs_.largest; }
   void begin_step() override { keeping_.begin_step(); }
@@ -38,9 +41,16 @@ class FmmEvaluator final : public FmmSum {
   void add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
                   const Coefficients<Real>& coefficients);
   void require_tree(const OctreeRules& rules);
+  /// Divides a new tree, or one that others than before are to be had from.
+  void require_shares(const FmmPlan& plan);
+  template <class Real>
+  void exchange(const Coefficients<Real>& coefficients);
+  /// Own targets' velocities to rank 0.
+  void gather_velocities();
   void count_work();
   double node_bytes() const;
 
+  Communicator* ranks_;
   HostNodes nodes_;
   BlobRange blobs_{0.0, 0.0};
   HostVectors own_velocity_;
@@ -56,6 +66,9 @@ class FmmEvaluator final : public FmmSum {
   Coefficients<double> coefficients_;
   Coefficients<float> single_coefficients_;
   std::vector<TargetTask> tasks_;
+  std::vector<double> send_, receive_;  ///< to and from other ranks
+  RankShares shares_;                   ///< of the tree; n_ranks 1 without others
+  bool has_shares_ = false;
   NearMatches near_matches_;  ///< of the tree, once they were needed
 };
 

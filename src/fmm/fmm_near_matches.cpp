@@ -26,7 +26,7 @@ std::uint64_t place_of(const Match& match) {
 
 }  // namespace
 
-NearMatches make_near_matches(const Octree& tree) {
+NearMatches make_near_matches(const Octree& tree, const RankShares* shares) {
   NearMatches near;
   const int n_leaves = static_cast<int>(tree.target_leaves().size());
   std::vector<int> first_tile;
@@ -43,10 +43,14 @@ NearMatches make_near_matches(const Octree& tree) {
     const auto i = static_cast<std::size_t>(leaf);
     return IndexRange{first_tile[i], first_tile[i + 1] - first_tile[i]};
   };
+  const auto is_own = [&](const int tile) {
+    return shares == nullptr || shares->has_target(near.tiles[static_cast<std::size_t>(tile)].first);
+  };
   for (int leaf = 0; leaf < n_leaves; ++leaf) {
     const IndexRange own = tiles_of(leaf);
     for (const int* partner = tree.near_partners().begin(leaf); partner != tree.near_partners().end(leaf); ++partner) {
       const IndexRange others = tiles_of(*partner);
+      if (!is_own(own.first) && !is_own(others.first)) continue;
       for (int i = own.first; i < own.first + own.count; ++i)
         for (int j = *partner == leaf ? i : others.first; j < others.first + others.count; ++j)
           near.matches.push_back({i, j});
@@ -55,6 +59,11 @@ NearMatches make_near_matches(const Octree& tree) {
   std::sort(near.matches.begin(), near.matches.end(),
             [](const Match& a, const Match& b) { return place_of(a) < place_of(b); });
   count_turns(static_cast<int>(near.tiles.size()), near.matches);
+  std::vector<char> is_met(near.tiles.size());
+  for (const Match& match : near.matches)
+    is_met[static_cast<std::size_t>(match.one)] = is_met[static_cast<std::size_t>(match.other)] = 1;
+  for (std::size_t tile = 0; tile < is_met.size(); ++tile)
+    if (is_met[tile] != 0) near.met.push_back(static_cast<int>(tile));
   return near;
 }
 

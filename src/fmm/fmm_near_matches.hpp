@@ -18,10 +18,14 @@ struct NearMatches {
   std::vector<int> packed_first;  ///< per tile its first place in the packed order; at the end, the number of places
   std::vector<int> leaf_first;    ///< per target leaf its first place in the packed order
 
+  std::vector<int> met;  ///< tiles that are in a match
+
   int n_packed() const { return packed_first.back(); }
 };
 
-/// @param tree  of nodes that are sources and targets alike
-NearMatches make_near_matches(const Octree& tree);
+/// @param tree    of nodes that are sources and targets alike
+/// @param shares  only matches in which a tile has targets of this rank, in the same order; such tiles receive all they
+///                would of all matches. Null: all
+NearMatches make_near_matches(const Octree& tree, const RankShares* shares = nullptr);
 
 }  // namespace skein

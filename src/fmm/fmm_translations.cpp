@@ -1,68 +1,20 @@
 #include "fmm/fmm_translations.hpp"
 
 #include "fmm/host_scratch.hpp"
+#include "fmm/pair_batch.hpp"
+#include "fmm/source_potentials.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace skein {
 namespace {
 
-using simd::Pack;
 using Tasks = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>;
-
-constexpr int tile = 128;  // sources whose units are changed at once
 
 template <class Real>
 const OperatorSet<Real>& operators_of(const std::vector<const OperatorSet<Real>*>& levels, const int level) {
   return *levels[static_cast<std::size_t>(level)];
-}
-
-template <class Real>
-void load_far_sources(const SortedNodes& nodes, const int first, const int count, const Vec3 center,
-                      const double half_width, FarSource<Real>* sources) {
-  const double to_units = 1.0 / half_width;
-  for (int s = 0; s < count; ++s) {
-    const int i = first + s;
-    const Vec3 y = to_units * (load(nodes.position, i) - center);
-    const double blob = to_units * nodes.blob(i);
-    sources[s] = {{static_cast<Real>(y.x), static_cast<Real>(y.y), static_cast<Real>(y.z)},
-                  {static_cast<Real>(nodes.force(i, 0)), static_cast<Real>(nodes.force(i, 1)),
-                   static_cast<Real>(nodes.force(i, 2))},
-                  static_cast<Real>(blob * blob)};
-  }
-}
-
-/// potential[plane][n_padded] += field of some sources at the surface of that size; packs of points in registers.
-template <int packs, class Real, class Field>
-void add_potentials(const Field& field, const OperatorSet<Real>& operators, const Real size, const int first,
-                    const FarSource<Real>* sources, const int n_sources, Real* potential) {
-  constexpr int width = simd::width<Real>;
-  Pack<Real> x[packs][3], sum[packs][Field::n_planes] = {};
-  for (int k = 0; k < packs; ++k)
-    for (int c = 0; c < 3; ++c) x[k][c] = size * simd::load_pack(&operators.surface(first + k * width, c));
-  for (int s = 0; s < n_sources; ++s) SKEIN_UNROLL
-  for (int k = 0; k < packs; ++k) field.add_source(x[k][0], x[k][1], x[k][2], sources[s], sum[k]);
-  for (int k = 0; k < packs; ++k)
-    for (int plane = 0; plane < Field::n_planes; ++plane) {
-      Real* const at = potential + plane * operators.n_padded + first + k * width;
-      simd::store_pack(at, simd::load_pack(at) + sum[k][plane]);
-    }
-}
-
-template <class Real, class Field>
-void add_run_potentials(const SortedNodes& nodes, const IndexRange run, const Vec3 center, const double half_width,
-                        const Field& field, const OperatorSet<Real>& operators, const double size, Real* potential) {
-  constexpr int width = simd::width<Real>;
-  FarSource<Real> sources[tile];
-  for (int first = 0; first < run.count; first += tile) {
-    const int count = math::smaller(tile, run.count - first);
-    load_far_sources(nodes, run.first + first, count, center, half_width, sources);
-    int i = 0;
-    for (; i + 2 * width <= operators.n_padded; i += 2 * width)
-      add_potentials<2>(field, operators, static_cast<Real>(size), i, sources, count, potential);
-    for (; i < operators.n_padded; i += width)
-      add_potentials<1>(field, operators, static_cast<Real>(size), i, sources, count, potential);
-  }
 }
 
 /// Sources of leaves to their coefficients (P2M); zero for other boxes.
@@ -86,81 +38,6 @@ void run_p2m(const Octree& tree, const SortedNodes& nodes, const Field& field,
                               coefficients.stride);
   }
 }
-
-/// column <- from with the signs of a reflection; the fourth column of the harmonic field (psi, measured from the box's
-/// centre) is moved to the centre of the other box: to = scale * psi + shift . phi.
-template <class Field, class Real>
-void gather(const Real* from, const int stride, const int n, const Real* sign, const Real scale, const Real (&shift)[3],
-            Real* to, const int to_stride) {
-  if constexpr (Field::shifts) {
-    for (int i = 0; i < n; ++i) {
-      const Real x = from[i], y = from[i + stride], z = from[i + 2 * stride], psi = from[i + 3 * stride];
-      to[i] = sign[i] * x;
-      to[i + to_stride] = sign[i] * y;
-      to[i + 2 * to_stride] = sign[i] * z;
-      to[i + 3 * to_stride] = sign[i] * (scale * psi + shift[0] * x + shift[1] * y + shift[2] * z);
-    }
-  } else {
-    for (int column = 0; column < Field::n_columns; ++column)
-      for (int i = 0; i < n; ++i) to[i + column * to_stride] = sign[i] * from[i + column * stride];
-  }
-}
-
-template <class Field, class Real>
-void scatter(const Real* from, const int from_stride, const int n, const Real* sign, Real* to, const int stride) {
-  for (int column = 0; column < Field::n_columns; ++column)
-    for (int i = 0; i < n; ++i) to[i + column * stride] += sign[i] * from[i + column * from_stride];
-}
-
-constexpr int columns_at_once = 64;
-
-/// One product for several pairs of boxes that share an operator, up to reflections.
-template <class Real, class Field>
-class PairBatch {
- public:
-  PairBatch(const int depth, const int n_rows)
-      : stride_(padded<Real>(depth)),
-        out_stride_(n_rows),
-        in_(stride_ * columns_at_once),
-        middle_(stride_ * columns_at_once),
-        out_(out_stride_ * columns_at_once) {}
-
-  static constexpr int capacity = columns_at_once / Field::n_columns;
-  bool is_full() const { return n_pairs_ == capacity; }
-
-  void add(const Real* from, const int from_stride, const int depth, const Real* sign_in, const Real scale,
-           const Real (&shift)[3], Real* to, const Real* sign_out) {
-    gather<Field>(from, from_stride, depth, sign_in, scale, shift, in_.get() + n_pairs_ * Field::n_columns * stride_,
-                  stride_);
-    to_[n_pairs_] = to;
-    sign_out_[n_pairs_++] = sign_out;
-  }
-
-  void apply(const PaddedMatrix<Real>& matrix, const int to_stride) {
-    if (n_pairs_ == 0) return;
-    matrix.apply(in_.get(), stride_, n_pairs_ * Field::n_columns, out_.get(), out_stride_);
-    scatter_all(matrix.n_rows, to_stride);
-  }
-  void apply(const FactoredMatrix<Real>& matrix, const int to_stride) {
-    if (n_pairs_ == 0) return;
-    matrix.apply(in_.get(), stride_, n_pairs_ * Field::n_columns, middle_.get(), out_.get(), out_stride_);
-    scatter_all(matrix.last.n_rows, to_stride);
-  }
-
- private:
-  void scatter_all(const int n_rows, const int to_stride) {
-    for (int k = 0; k < n_pairs_; ++k)
-      scatter<Field>(out_.get() + k * Field::n_columns * out_stride_, out_stride_, n_rows, sign_out_[k], to_[k],
-                     to_stride);
-    n_pairs_ = 0;
-  }
-
-  int stride_, out_stride_;
-  HostScratch<Real> in_, middle_, out_;  ///< a factored matrix is never thicker in the middle
-  Real* to_[capacity];
-  const Real* sign_out_[capacity];
-  int n_pairs_ = 0;
-};
 
 /// The branches of a tree: everything below (and with) one box of a level that has a few for every thread. A branch's
 /// boxes of each level stand together, and branches do not meet, so that one parallel loop over branches does all their
@@ -241,12 +118,12 @@ void compute_source_coefficients(const Octree& tree, const SortedNodes& nodes, c
   }
 }
 
-/// Boxes whose V lists make one task: of one level.
-std::vector<IndexRange> make_transfer_tasks(const Octree& tree) {
+/// Boxes whose V lists make one task: of one level. @param boxes_of_level  that are to be in a task
+std::vector<IndexRange> make_transfer_tasks(const Octree& tree, const std::vector<IndexRange>& boxes_of_level) {
   constexpr int min_pairs = 48, max_boxes = 64;
   std::vector<IndexRange> tasks;
   for (int level = first_far_level; level < tree.n_levels(); ++level) {
-    const IndexRange boxes = tree.level(level);
+    const IndexRange boxes = boxes_of_level[static_cast<std::size_t>(level)];
     IndexRange task{boxes.first, 0};
     int n_pairs = 0;
     const int enough =
@@ -270,8 +147,9 @@ std::vector<IndexRange> make_transfer_tasks(const Octree& tree) {
 /// Across the V lists (M2L) and from the sources of X lists (P2L); overwrites the coefficients for targets.
 template <class Real, class Field>
 void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& field,
-                     const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
-  const std::vector<IndexRange> tasks = make_transfer_tasks(tree);
+                     const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
+                     const std::vector<IndexRange>& boxes_of_level) {
+  const std::vector<IndexRange> tasks = make_transfer_tasks(tree, boxes_of_level);
   const auto across = [&](const int t) {
     const IndexRange boxes = tasks[static_cast<std::size_t>(t)];
     const int level = tree.box(boxes.first).level;
@@ -358,6 +236,18 @@ void run_l2l_of_all_levels(const Octree& tree, const std::vector<const OperatorS
   });
 }
 
+/// A parallel loop over some boxes, a few of them at once.
+template <class Use>
+void for_chunks(const std::string& label, const IndexRange boxes, const Use& use) {
+  constexpr int most = 64;
+  const int wanted = math::ceil_div(boxes.count, 8 * HostSpace().concurrency());
+  const int size = math::larger(1, math::smaller(most, wanted)), n_chunks = math::ceil_div(boxes.count, size);
+  Kokkos::parallel_for(label, Tasks(HostSpace(), 0, n_chunks), [&](const int chunk) {
+    const int first = chunk * size;
+    use(IndexRange{boxes.first + first, math::smaller(size, boxes.count - first)});
+  });
+}
+
 }  // namespace
 
 template <class Real, class Field>
@@ -365,14 +255,43 @@ void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Fi
                           const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
   if (tree.n_levels() <= first_far_level) return;
   compute_source_coefficients<Real, Field>(tree, nodes, field, levels, coefficients);
-  run_m2l_and_p2l<Real, Field>(tree, nodes, field, levels, coefficients);
+  std::vector<IndexRange> all;
+  for (int level = 0; level < tree.n_levels(); ++level) all.push_back(tree.level(level));
+  run_m2l_and_p2l<Real, Field>(tree, nodes, field, levels, coefficients, all);
   run_l2l_of_all_levels<Real, Field>(tree, levels, coefficients);
 }
 
-#define SKEIN_INSTANTIATE(Real, Field)                                                             \
-  template void compute_coefficients<Real, Field>(const Octree&, const SortedNodes&, const Field&, \
-                                                  const std::vector<const OperatorSet<Real>*>&,    \
-                                                  const Coefficients<Real>&);
+// Level by level: branches end somewhere between ranks.
+template <class Real, class Field>
+void compute_shared_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+                                 const std::vector<const OperatorSet<Real>*>& levels,
+                                 const Coefficients<Real>& coefficients, const RankShares& shares,
+                                 const std::function<void()>& exchange) {
+  if (tree.n_levels() <= first_far_level) return;
+  for (int level = tree.n_levels() - 1; level >= first_far_level; --level)
+    for_chunks("skein::compute_shared_coefficients", shares.source_boxes[static_cast<std::size_t>(level)],
+               [&](const IndexRange boxes) {
+                 run_p2m<Real, Field>(tree, nodes, field, levels, coefficients, boxes);
+                 run_m2m<Real, Field>(tree, levels, coefficients, level, boxes);
+               });
+  exchange();
+  for (const int b : shares.boxes_of_all) {
+    run_p2m<Real, Field>(tree, nodes, field, levels, coefficients, {b, 1});
+    run_m2m<Real, Field>(tree, levels, coefficients, tree.box(b).level, {b, 1});
+  }
+  run_m2l_and_p2l<Real, Field>(tree, nodes, field, levels, coefficients, shares.target_boxes);
+  for (int level = first_far_level + 1; level < tree.n_levels(); ++level)
+    for_chunks("skein::run_l2l", shares.target_boxes[static_cast<std::size_t>(level)],
+               [&](const IndexRange boxes) { run_l2l<Real, Field>(tree, levels, coefficients, level, boxes); });
+}
+
+#define SKEIN_INSTANTIATE(Real, Field)                                                               \
+  template void compute_coefficients<Real, Field>(const Octree&, const SortedNodes&, const Field&,   \
+                                                  const std::vector<const OperatorSet<Real>*>&,      \
+                                                  const Coefficients<Real>&);                        \
+  template void compute_shared_coefficients<Real, Field>(                                            \
+      const Octree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
+      const Coefficients<Real>&, const RankShares&, const std::function<void()>&);
 SKEIN_INSTANTIATE(double, HarmonicField)
 SKEIN_INSTANTIATE(float, HarmonicField)
 SKEIN_INSTANTIATE(double, StokesletField)

@@ -3,7 +3,9 @@
 #include "fmm/fmm_operator_set.hpp"
 #include "fmm/laplace.hpp"
 #include "fmm/octree.hpp"
+#include "fmm/rank_shares.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace skein {
@@ -40,6 +42,14 @@ struct Coefficients {
 template <class Real, class Field>
 void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
                           const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients);
+
+/// One rank's part of them: up from its own sources, then what others need, by `exchange`, then across and down to its
+/// own targets. Boxes that this rank has no use for stay as they are.
+template <class Real, class Field>
+void compute_shared_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+                                 const std::vector<const OperatorSet<Real>*>& levels,
+                                 const Coefficients<Real>& coefficients, const RankShares& shares,
+                                 const std::function<void()>& exchange);
 
 /// The near field of the leaves' targets: what is there already, and what is still to be summed.
 struct NearField {

@@ -88,8 +88,9 @@ void NearTiles<Real>::compute(const SortedNodes& nodes, const NearMatches& near,
         6 * near.n_packed());
   origin_.resize(near.tiles.size());
   Kokkos::deep_copy(velocity, 0.0);
-  Kokkos::parallel_for("skein::load_near_tiles", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_tiles),
-                       [&](const int tile) { load(nodes, near, tile); });
+  Kokkos::parallel_for("skein::load_near_tiles",
+                       Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, static_cast<int>(near.met.size())),
+                       [&](const int i) { load(nodes, near, near.met[static_cast<std::size_t>(i)]); });
   const Real blob_squared = static_cast<Real>(nodes.blob(0) * nodes.blob(0));
   const auto place_of = [&](const int tile, VelocityPlace& place) {
     for (int c = 0; c < 3; ++c)

@@ -2,6 +2,7 @@
 #include <skein/fmm/fmm_sum.hpp>
 #include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/fmm_mobility.hpp>
+#include <skein/physics/sum_team.hpp>
 
 #include "kernels/node_checks.hpp"
 
@@ -54,12 +55,12 @@ double norm_at(const Vectors& velocity, const EvenSample& sample) {
 
 }  // namespace
 
-FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options)
+FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options, SumTeam* team)
     : viscosity_(viscosity),
       options_(options),
-      direct_(viscosity, options.precision, options.path),
-      direct_in_single_(viscosity, Precision::in_single, options.path),
-      sum_(make_fmm_sum(options.path)) {
+      direct_(viscosity, options.precision, options.path, team),
+      direct_in_single_(viscosity, Precision::in_single, options.path, team),
+      sum_(team == nullptr ? make_fmm_sum(options.path) : team->make_fmm_sum(options.path)) {
   SKEIN_REQUIRE(viscosity > 0.0, "the viscosity must be positive");
   if (!(options.direct_when_cheaper && needs_direct_sum(options))) check_fmm_options(options);
 }

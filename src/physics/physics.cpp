@@ -23,14 +23,16 @@ std::shared_ptr<const NodeSymmetry> make_symmetry(const SceneConfig& scene, cons
 }
 
 /// The mobility a scene asks for.
-std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::shared_ptr<const NodeSymmetry>& symmetry) {
+std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::shared_ptr<const NodeSymmetry>& symmetry,
+                                        SumTeam* team) {
   const MobilityChoice choice = choose_mobility(scene);
   const double viscosity = scene.fluid.viscosity;
   if (symmetry != nullptr && choice.is_direct)
-    return std::make_unique<SymmetricMobility>(viscosity, choice.precision, symmetry);
-  if (symmetry != nullptr) return std::make_unique<SymmetricMobility>(viscosity, choice.fmm, symmetry);
-  if (choice.is_direct) return std::make_unique<DirectMobility>(viscosity, choice.precision);
-  return std::make_unique<FmmMobility>(viscosity, choice.fmm);
+    return std::make_unique<SymmetricMobility>(viscosity, choice.precision, symmetry, team);
+  if (symmetry != nullptr) return std::make_unique<SymmetricMobility>(viscosity, choice.fmm, symmetry, team);
+  if (choice.is_direct)
+    return std::make_unique<DirectMobility>(viscosity, choice.precision, KernelPath::automatic, team);
+  return std::make_unique<FmmMobility>(viscosity, choice.fmm, team);
 }
 
 }  // namespace
@@ -89,7 +91,7 @@ std::vector<Vec3> Physics::make_start_nodes(const std::uint64_t seed) const {
   return nodes;
 }
 
-Physics make_physics(const SceneConfig& asked) {
+Physics make_physics(const SceneConfig& asked, SumTeam* team) {
   const SceneConfig scene = resolve_chains(asked);
   std::vector<Fiber> fibers = make_fibers(scene.fibers);
   RigidBodies rigid_bodies(fibers, scene.fluid.viscosity);
@@ -100,7 +102,7 @@ Physics make_physics(const SceneConfig& asked) {
   return {.fibers = std::move(fibers),
           .forces = std::move(forces),
           .flow = make_background_flow(scene.flows),
-          .mobility = make_mobility(scene, symmetry),
+          .mobility = make_mobility(scene, symmetry, team),
           .rigid_bodies = std::move(rigid_bodies),
           .sections = std::move(sections),
           .blob = blob,

@@ -32,18 +32,20 @@ SymmetricMobility::SymmetricMobility(std::shared_ptr<const NodeSymmetry> symmetr
       before_("skein::SymmetricMobility::before", symmetry_->orbits().n_orbits()) {}
 
 SymmetricMobility::SymmetricMobility(const double viscosity, const Precision precision,
-                                     std::shared_ptr<const NodeSymmetry> symmetry)
-    : SymmetricMobility(std::move(symmetry), std::make_unique<DirectMobility>(viscosity, precision),
-                        std::make_unique<DirectMobility>(viscosity, precision)) {
-  if constexpr (on_host<ExecSpace>)
+                                     std::shared_ptr<const NodeSymmetry> symmetry, SumTeam* team)
+    : SymmetricMobility(std::move(symmetry),
+                        std::make_unique<DirectMobility>(viscosity, precision, KernelPath::automatic, team),
+                        std::make_unique<DirectMobility>(viscosity, precision, KernelPath::automatic, team)) {
+  if (on_host<ExecSpace> && team == nullptr)
     images_ = std::make_unique<ImageSum>(symmetry_, viscosity,
                                          precision == Precision::automatic ? Precision::in_double : precision);
 }
 
 SymmetricMobility::SymmetricMobility(const double viscosity, const FmmOptions& options,
-                                     std::shared_ptr<const NodeSymmetry> symmetry)
-    : SymmetricMobility(std::move(symmetry), std::make_unique<FmmMobility>(viscosity, put_targets_at_sources(options)),
-                        std::make_unique<FmmMobility>(viscosity, options)) {}
+                                     std::shared_ptr<const NodeSymmetry> symmetry, SumTeam* team)
+    : SymmetricMobility(std::move(symmetry),
+                        std::make_unique<FmmMobility>(viscosity, put_targets_at_sources(options), team),
+                        std::make_unique<FmmMobility>(viscosity, options, team)) {}
 
 SymmetricMobility::~SymmetricMobility() = default;
 

@@ -122,10 +122,10 @@ class Undulations final : public Force {
   double time_scale() const override { return find_undulation_time(configs_); }
 
   void add_course(TimeCourse& course) const override {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double for_ever = std::numeric_limits<double>::infinity();
     for (const UndulationConfig& config : configs_) {
       if (config.angular_frequency != 0.0)
-        course.add_oscillation(0.0, infinity, 2.0 * std::numbers::pi / std::abs(config.angular_frequency));
+        course.add_oscillation(0.0, for_ever, 2.0 * std::numbers::pi / std::abs(config.angular_frequency));
       if (config.ramp > 0.0) course.add_ramp(0.0, config.ramp);
     }
   }

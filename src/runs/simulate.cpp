@@ -8,11 +8,15 @@
 #include "runs/run_description.hpp"
 #include "runs/simulation.hpp"
 
+#include <optional>
+
 namespace skein {
 
 ExitCode simulate(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
-                  RunListener& listener, const std::string& first_words) {
-  Simulation simulation(scene, folder, checkpoint, control, listener, read_fault_hooks());
+                  RunListener& listener, const std::string& first_words, Communicator* ranks) {
+  std::optional<SumTeam> team;
+  if (ranks != nullptr) team.emplace(*ranks);
+  Simulation simulation(scene, folder, checkpoint, control, listener, read_fault_hooks(), team ? &*team : nullptr);
   if (!first_words.empty()) simulation.say(first_words);
   simulation.introduce();
   return simulation.run();

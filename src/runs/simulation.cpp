@@ -6,10 +6,12 @@
 #include <skein/dynamics/make_integrator.hpp>
 #include <skein/io/trajectory_end.hpp>
 #include <skein/physics/scene_times.hpp>
+#include <skein/ranks/rank_error.hpp>
 #include <skein/scene/recorded_times.hpp>
 
 #include "runs/evaluation_time.hpp"
 #include "runs/run_description.hpp"
+#include "runs/shared_run.hpp"
 #include "runs/start_state.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +30,8 @@ TrajectoryEnd find_start(const RunFolder& folder, const Checkpoint* checkpoint) 
 }
 
 /// The physics of a run, after the hooks have seen it.
-Physics make_prepared_physics(const SceneConfig& scene, const RunHooks& hooks, const State& state) {
-  Physics physics = make_physics(scene);
+Physics make_prepared_physics(const SceneConfig& scene, const RunHooks& hooks, const State& state, SumTeam* team) {
+  Physics physics = make_physics(scene, team);
   if (hooks.prepare) hooks.prepare(physics, state);
   return physics;
 }
@@ -41,12 +43,13 @@ std::unique_ptr<RightHandSide> decorate(const RunHooks& hooks, RightHandSide& dy
 }  // namespace
 
 Simulation::Simulation(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint,
-                       RunControl& control, RunListener& listener, const RunHooks& hooks)
+                       RunControl& control, RunListener& listener, const RunHooks& hooks, SumTeam* team)
     : scene_(resolve_times(scene)),
       folder_(folder),
       control_(control),
+      team_(team),
       messages_(folder, listener),
-      physics_(make_prepared_physics(scene, hooks, state_)),
+      physics_(make_prepared_physics(scene, hooks, state_, team)),
       state_(make_start_state(scene, folder, checkpoint != nullptr, physics_)),
       dynamics_(physics_),
       decorator_(decorate(hooks, dynamics_, state_)),
@@ -77,8 +80,10 @@ void Simulation::introduce() {
   before.bring_back(dynamics_);
   physics_.mobility->take_messages();
   ledger_.exclude_evaluations();
+  if (team_ != nullptr) cost.direct_seconds /= team_->ranks().size();
   say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost, radius,
                    checkpoints_.checkpoint_bytes()));
+  if (team_ != nullptr) say(describe_ranks(*team_));
 }
 
 ExitCode Simulation::run() {
@@ -95,7 +100,11 @@ ExitCode Simulation::run() {
   checkpoints_.rehearse();
   try {
     advance_to_end();
-  } catch (const Interruption&) {  // the step is given up, and all is as it was before it
+  } catch (const Interruption&) {     // the step is given up, and all is as it was before it
+  } catch (const RankError& error) {  // so it is here
+    messages_.listener().end();
+    save_last_good_state(error);
+    throw;
   } catch (const Error& error) {
     messages_.listener().end();
     if (error.code() != ExitCode::numerical) throw;
@@ -182,6 +191,7 @@ void Simulation::report_end(const ExitCode code) {
     say(fmt::format("stopped at t = {:.6g} of {:g} (step {}): {}. 'skein resume {}' goes on.", state_.time,
                     scene_.time.end, state_.step, control_.reason(), folder_.path().string()));
   const CostCard card = say_cost();
+  if (team_ != nullptr) say(describe_ranks(*team_));
   const RunLedger::Parts& parts = ledger_.parts();
   messages_.events().write("end", {{"time", state_.time},
                                    {"steps", state_.step},

@@ -3,6 +3,7 @@
 #include <skein/core/error.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/io/run_folder.hpp>
+#include <skein/physics/sum_team.hpp>
 #include <skein/scene/scene_config.hpp>
 
 #include "runs/checkpoint_keeper.hpp"
@@ -25,8 +26,9 @@ class Simulation {
   /// @param folder      holds the scene's text; whatever a trajectory in it has behind the checkpoint is removed
   /// @param checkpoint  where the run goes on; null: it starts
   /// @param control, listener  must outlive the simulation
+  /// @param team  ranks that share its sums, which must outlive it, too; null: none
   Simulation(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
-             RunListener& listener, const RunHooks& hooks = {});
+             RunListener& listener, const RunHooks& hooks = {}, SumTeam* team = nullptr);
 
   /// Says what is going to be computed, how, and what it will take.
   void introduce();
@@ -49,6 +51,7 @@ class Simulation {
   SceneConfig scene_;
   RunFolder folder_;
   RunControl& control_;
+  SumTeam* team_;
   RunMessages messages_;
   Physics physics_;
   State state_;

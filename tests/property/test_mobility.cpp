@@ -3,6 +3,7 @@
 
 #include "tests/property/mobility_properties.hpp"
 #include "tests/reference/point_cloud.hpp"
+#include "tests/support/rank_team.hpp"
 
 #include <cmath>
 #include <limits>
@@ -201,13 +202,13 @@ TEST_P(MobilityProperties, NoSourcesAndNoTargetsAreAllowed) {
 }
 
 std::unique_ptr<Mobility> make_direct_in_double(const double viscosity) {
-  return std::make_unique<DirectMobility>(viscosity, Precision::in_double);
+  return std::make_unique<DirectMobility>(viscosity, Precision::in_double, KernelPath::automatic, test::find_team());
 }
 std::unique_ptr<Mobility> make_direct_in_single(const double viscosity) {
-  return std::make_unique<DirectMobility>(viscosity, Precision::in_single);
+  return std::make_unique<DirectMobility>(viscosity, Precision::in_single, KernelPath::automatic, test::find_team());
 }
 std::unique_ptr<Mobility> make_direct_on_device(const double viscosity) {
-  return std::make_unique<DirectMobility>(viscosity, Precision::in_single, KernelPath::device);
+  return std::make_unique<DirectMobility>(viscosity, Precision::in_single, KernelPath::device, test::find_team());
 }
 
 /// Leaves small enough that these few nodes have a far field.
@@ -218,7 +219,7 @@ std::unique_ptr<Mobility> make_fmm(const double viscosity, const double toleranc
   options.tolerance = tolerance;
   options.far_field = far_field;
   options.leaf_size = 6;
-  return std::make_unique<FmmMobility>(viscosity, options);
+  return std::make_unique<FmmMobility>(viscosity, options, test::find_team());
 }
 std::unique_ptr<Mobility> make_fmm_in_single(const double viscosity) {
   return make_fmm(viscosity, 1e-5, FarField::harmonic);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <skein/arrays/combination.hpp>
 #include <skein/arrays/types.hpp>
+#include <skein/core/error.hpp>
 
 #include "kernels/stokeslet_direct.hpp"
 #include "kernels/stokeslet_teams.hpp"
@@ -13,13 +15,23 @@
 
 namespace skein {
 
-// The three direct sums behind one call on host lists, for the tests that all of them pass.
+// The direct sums behind one call on host lists, for the tests that all of them pass.
 
-enum class Sum { general, symmetric, teams };
+enum class Sum { general, symmetric, rounds, teams };
 inline constexpr double test_viscosity = 1.7;
 
 inline std::string name_of(const Sum sum) {
-  return sum == Sum::general ? "general" : sum == Sum::symmetric ? "symmetric" : "teams";
+  switch (sum) {
+    case Sum::general:
+      return "general";
+    case Sum::symmetric:
+      return "symmetric";
+    case Sum::rounds:
+      return "rounds";
+    case Sum::teams:
+      return "teams";
+  }
+  return "";
 }
 
 /// A host array of a list; `to_device` would make one of the default space, which may be a GPU's.
@@ -66,6 +78,15 @@ inline std::vector<Vec3> add_velocity(const Sum sum, const Precision precision, 
     add_stokeslet_velocity(space, position, force, blob, make_host_vectors(target), result, test_viscosity, precision);
   if (sum == Sum::symmetric)
     add_symmetric_stokeslet_velocity(space, position, force, blob, result, test_viscosity, precision);
+  if (sum == Sum::rounds) {
+    const PairRounds rounds(position.extent_int(0));
+    const HostVectors added("test::added", result.extent(0));
+    std::vector<HostVectors> scratch;
+    if (target.size() != velocity.size()) throw Error(ExitCode::internal, "targets and velocities differ in number");
+    compute_round_velocity(space, position, force, blob, rounds, {rounds.top_level(), 0}, added, test_viscosity,
+                           precision, scratch);
+    combine<HostSpace>(space, result, {1.0, result}, {1.0, added});
+  }
   space.fence();
   std::vector<Vec3> list;
   for (int i = 0; i < result.extent_int(0); ++i) list.push_back(load(result, i));

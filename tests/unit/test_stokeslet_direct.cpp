@@ -28,7 +28,7 @@ std::ostream& operator<<(std::ostream& out, const Row& row) {
 
 class StokesletSum : public ::testing::TestWithParam<Row> {
  protected:
-  bool symmetric() const { return GetParam().sum == Sum::symmetric; }
+  bool symmetric() const { return GetParam().sum == Sum::symmetric || GetParam().sum == Sum::rounds; }
   int smallest() const { return symmetric() ? min_symmetric_nodes : 1; }
   reference::PointForces sources(const Cloud cloud, const int n_sources, const Vec3 center = {}) const {
     return symmetric() ? make_equal_sources(cloud, n_sources, center, 7) : make_sources(cloud, n_sources, center, 7);
@@ -47,6 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
     , StokesletSum,
     ::testing::Values(Row{Sum::general, Precision::in_double, 4e-15}, Row{Sum::general, Precision::in_single, 2e-6},
                       Row{Sum::symmetric, Precision::in_double, 4e-15}, Row{Sum::symmetric, Precision::in_single, 2e-6},
+                      Row{Sum::rounds, Precision::in_double, 4e-15}, Row{Sum::rounds, Precision::in_single, 2e-6},
                       Row{Sum::teams, Precision::in_double, 4e-15}, Row{Sum::teams, Precision::in_single, 2e-6}),
     ::testing::PrintToStringParamName());
 

@@ -91,6 +91,9 @@ struct FmmWork {
   double n_boxes = 0.0;
 };
 
+/// Of one core, or of a device, for the work of a tree or of a part of it.
+double estimate_nanoseconds(const FmmWork& work, const FmmPlan& plan, bool is_symmetric, KernelPath path);
+
 /// Time of an evaluation over that of a direct sum, from measured rates of pairs and products (machine_rates.hpp).
 /// @param is_symmetric  sources are targets, with one blob: a host meets each pair once
 double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool is_symmetric, const FmmOptions& options);

@@ -4,6 +4,7 @@
 #include <skein/arrays/types.hpp>
 #include <skein/fmm/even_sample.hpp>
 #include <skein/fmm/fmm_plan.hpp>
+#include <skein/ranks/communicator.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -48,6 +49,9 @@ class FmmSum {
 };
 
 /// @param path  automatic: on the host where kernels run there, else on the device
-std::unique_ptr<FmmSum> make_fmm_sum(KernelPath path);
+/// @param ranks  processes that share the sum, to the same bits: all of them take and compute it with the same
+/// arguments, and
+///               rank 0 has it. Null: this one alone, as on every device
+std::unique_ptr<FmmSum> make_fmm_sum(KernelPath path, Communicator* ranks = nullptr);
 
 }  // namespace skein

@@ -6,6 +6,8 @@
 
 namespace skein {
 
+class SumTeam;
+
 /// The regularized Stokeslets of all sources, summed pair by pair: O(n_sources n_targets), exact to rounding in double,
 /// to about 1e-6 in single precision (positions, differences and long sums stay double). Sums repeat to the bit on one
 /// machine; devices that run other numbers of threads at once cut them up otherwise.
@@ -13,7 +15,9 @@ class DirectMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
   /// @param precision  automatic: double
-  DirectMobility(double viscosity, Precision precision, KernelPath path = KernelPath::automatic);
+  /// @param team       ranks that share the sums, which have another order then; null: none
+  DirectMobility(double viscosity, Precision precision, KernelPath path = KernelPath::automatic,
+                 SumTeam* team = nullptr);
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   double expected_error() const override { return precision_ == Precision::in_single ? 1e-6 : 0.0; }
@@ -25,6 +29,7 @@ class DirectMobility final : public Mobility {
   double viscosity_;
   Precision precision_;
   bool by_teams_;
+  SumTeam* team_;
   Scalars partial_;  ///< scratch of the teams
   double pairs_ = 0.0;
 };

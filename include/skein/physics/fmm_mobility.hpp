@@ -12,6 +12,8 @@
 
 namespace skein {
 
+class SumTeam;
+
 /// The regularized Stokeslets of all sources by a kernel-independent fast multipole method: O(n) for a stated error.
 ///
 /// Near nodes are summed with S_eps of each source's own blob; far ones through an adaptive octree (see FarField for
@@ -22,7 +24,8 @@ class FmmMobility final : public Mobility {
  public:
   /// @param viscosity  > 0, force * time / length^2
   /// @throws Error(scene_error) where the options ask for what cannot be delivered.
-  FmmMobility(double viscosity, const FmmOptions& options);
+  /// @param team  ranks that share the sums, to the same bits; null: none
+  FmmMobility(double viscosity, const FmmOptions& options, SumTeam* team = nullptr);
   ~FmmMobility() override;
 
   /// @throws Error(scene_error) where a tolerance is out of reach for these blobs; Error(numerical) where a check finds

@@ -16,6 +16,8 @@
 
 namespace skein {
 
+class SumTeam;
+
 /// All that a scene says of the world, ready to be asked: fibers, the forces on their nodes, the flow and the fluid.
 /// Runs, analyses, benches and users of the library make it by make_physics, and may replace its parts before it is
 /// used.
@@ -63,7 +65,8 @@ struct Physics {
 };
 
 /// The physics of a scene, whose fibers are as written (see place_fibers).
+/// @param team  ranks that share its sums, which must outlive it; null: none
 /// @throws Error(scene_error) where the scene asks for what cannot be delivered
-Physics make_physics(const SceneConfig& scene);
+Physics make_physics(const SceneConfig& scene, SumTeam* team = nullptr);
 
 }  // namespace skein

@@ -11,6 +11,8 @@
 
 namespace skein {
 
+class SumTeam;
+
 /// Velocities of a scene with a symmetry: they are found for the first nodes of orbits, and mapped to all others.
 ///
 /// Direct sums weigh, on hosts and with equal blobs, each pair of a first node and an image once for both. Elsewhere,
@@ -20,10 +22,13 @@ namespace skein {
 class SymmetricMobility final : public Mobility {
  public:
   /// By direct sums. @param viscosity  > 0, force * time / length^2  @param precision  automatic: double
-  SymmetricMobility(double viscosity, Precision precision, std::shared_ptr<const NodeSymmetry> symmetry);
+  /// @param team  ranks that share the sums, in which each pair is weighed from both sides then; null: none
+  SymmetricMobility(double viscosity, Precision precision, std::shared_ptr<const NodeSymmetry> symmetry,
+                    SumTeam* team = nullptr);
 
   /// By the fast multipole method. @throws Error(scene_error) where the options ask for what cannot be delivered
-  SymmetricMobility(double viscosity, const FmmOptions& options, std::shared_ptr<const NodeSymmetry> symmetry);
+  SymmetricMobility(double viscosity, const FmmOptions& options, std::shared_ptr<const NodeSymmetry> symmetry,
+                    SumTeam* team = nullptr);
   ~SymmetricMobility() override;
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;

@@ -1,0 +1,178 @@
+#include "fmm/rank_shares.hpp"
+
+#include "fmm/fmm_operator_set.hpp"
+
+#include <algorithm>
+
+namespace skein {
+namespace {
+
+constexpr int several = -1, nobody = -2;
+
+/// Work that begins at a place in the tree's order, at which ranks may be divided if a leaf begins there.
+struct Piece {
+  int first = 0;
+  double work = 0.0;
+  bool is_leaf = false;
+};
+
+std::vector<Piece> list_target_work(const Octree& tree, const FmmPlan& plan, const bool is_symmetric) {
+  std::vector<Piece> pieces;
+  const auto note = [&](const Box& box, const int b, const double near_pairs) {
+    FmmWork work;
+    work.n_sources = box.is_leaf() ? box.sources.count : 0;
+    work.n_targets = box.is_leaf() ? box.targets.count : 0;
+    work.near_pairs = near_pairs;
+    work.far_pairs = tree.v_list().size(b);
+    work.n_boxes = 1.0;
+    pieces.push_back(
+        {box.targets.first, estimate_nanoseconds(work, plan, is_symmetric, KernelPath::host), box.is_leaf()});
+  };
+  for (int b = 0; b < static_cast<int>(tree.boxes().size()); ++b)
+    if (!tree.box(b).is_leaf() && tree.box(b).targets.count > 0) note(tree.box(b), b, 0.0);
+  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
+    const int b = tree.target_leaves()[static_cast<std::size_t>(leaf)];
+    double n_sources = 0.0;
+    for (const IndexRange* run = tree.u_list().begin(leaf); run != tree.u_list().end(leaf); ++run)
+      n_sources += run->count;
+    note(tree.box(b), b, n_sources * tree.box(b).targets.count);
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
+  return pieces;
+}
+
+/// Edges between ranks, and what each rank has to do.
+std::vector<int> cut(const std::vector<Piece>& pieces, const int n_places, const int n_ranks, double& balance) {
+  double total = 0.0;
+  for (const Piece& piece : pieces) total += piece.work;
+  std::vector<int> edges = {0};
+  std::vector<double> work(static_cast<std::size_t>(n_ranks));
+  double before = 0.0;
+  for (const Piece& piece : pieces) {
+    // A leaf goes to the next rank where its middle lies beyond the edge.
+    while (piece.is_leaf && static_cast<int>(edges.size()) < n_ranks && piece.first > edges.back() &&
+           before + 0.5 * piece.work > total * static_cast<double>(edges.size()) / n_ranks)
+      edges.push_back(piece.first);
+    work[edges.size() - 1] += piece.work;
+    before += piece.work;
+  }
+  edges.resize(static_cast<std::size_t>(n_ranks) + 1, n_places);
+  balance = total > 0.0 ? *std::max_element(work.begin(), work.end()) * n_ranks / total : 1.0;
+  return edges;
+}
+
+std::vector<int> cut_sources(const Octree& tree, const int n_ranks) {
+  std::vector<Piece> pieces;
+  for (const Box& box : tree.boxes())
+    if (box.is_leaf() && box.sources.count > 0)
+      pieces.push_back({box.sources.first, static_cast<double>(box.sources.count), true});
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
+  double ignored = 1.0;
+  return cut(pieces, tree.source_order().extent_int(0), n_ranks, ignored);
+}
+
+int rank_of(const std::vector<int>& first, const int place) {
+  return static_cast<int>(std::upper_bound(first.begin(), first.end() - 1, place) - first.begin()) - 1;
+}
+
+/// Of the sources of each box.
+std::vector<int> find_owners(const Octree& tree, const std::vector<int>& first_source) {
+  std::vector<int> owners;
+  for (const Box& box : tree.boxes()) {
+    const int last = box.sources.first + box.sources.count - 1;
+    const int owner = box.sources.count == 0 ? nobody : rank_of(first_source, box.sources.first);
+    owners.push_back(owner == nobody || owner == rank_of(first_source, last) ? owner : several);
+  }
+  return owners;
+}
+
+/// Widens a range of boxes of a level.
+void note_box(const int b, IndexRange& boxes) {
+  if (boxes.count == 0) boxes.first = b;
+  boxes.count = b + 1 - boxes.first;
+}
+
+/// Who needs whose coefficients: entry [rank][box].
+class Needs {
+ public:
+  Needs(const Octree& tree, const RankShares& shares, const std::vector<int>& owners)
+      : tree_(tree), shares_(shares), owners_(owners) {
+    needed_.assign(static_cast<std::size_t>(shares.n_ranks), std::vector<char>(tree.boxes().size()));
+  }
+
+  /// Everything that the targets of a box need a source's box for.
+  void note(const Box& at, const int source) {
+    const int owner = owners_[static_cast<std::size_t>(source)];
+    if (owner < 0) return;
+    const int first = rank_of(shares_.first_target, at.targets.first);
+    const int last = rank_of(shares_.first_target, at.targets.first + at.targets.count - 1);
+    for (int rank = first; rank <= last; ++rank) note(rank, owner, source);
+  }
+  void note(const int rank, const int owner, const int source) {
+    if (rank != owner && (rank == shares_.rank || owner == shares_.rank))
+      needed_[static_cast<std::size_t>(rank)][static_cast<std::size_t>(source)] = 1;
+  }
+
+  void list(RankShares& shares) const {
+    shares.sent.resize(static_cast<std::size_t>(shares.n_ranks));
+    shares.received.resize(static_cast<std::size_t>(shares.n_ranks));
+    for (int b = 0; b < static_cast<int>(tree_.boxes().size()); ++b) {
+      const int owner = owners_[static_cast<std::size_t>(b)];
+      if (owner == shares.rank) {
+        for (std::size_t rank = 0; rank < needed_.size(); ++rank)
+          if (needed_[rank][static_cast<std::size_t>(b)] != 0) shares.sent[rank].push_back(b);
+      } else if (owner >= 0 && needed_[static_cast<std::size_t>(shares.rank)][static_cast<std::size_t>(b)] != 0) {
+        shares.received[static_cast<std::size_t>(owner)].push_back(b);
+      }
+    }
+  }
+
+ private:
+  const Octree& tree_;
+  const RankShares& shares_;
+  const std::vector<int>& owners_;
+  std::vector<std::vector<char>> needed_;
+};
+
+}  // namespace
+
+RankShares share_tree(const Octree& tree, const FmmPlan& plan, const bool is_symmetric, const int rank,
+                      const int n_ranks) {
+  RankShares shares;
+  shares.rank = rank;
+  shares.n_ranks = n_ranks;
+  shares.first_target =
+      cut(list_target_work(tree, plan, is_symmetric), tree.target_order().extent_int(0), n_ranks, shares.balance);
+  shares.first_source = tree.has_same_nodes() ? shares.first_target : cut_sources(tree, n_ranks);
+  const std::vector<int> owners = find_owners(tree, shares.first_source);
+  shares.source_boxes.resize(static_cast<std::size_t>(tree.n_levels()));
+  shares.target_boxes.resize(static_cast<std::size_t>(tree.n_levels()));
+  Needs needs(tree, shares, owners);
+  const IndexRange own = shares.own_targets();
+  for (int b = static_cast<int>(tree.boxes().size()) - 1; b >= 0; --b) {
+    const Box& box = tree.box(b);
+    if (owners[static_cast<std::size_t>(b)] != several || box.level < first_far_level) continue;
+    shares.boxes_of_all.push_back(b);
+    for (int child = box.first_child; child < box.first_child + box.n_children; ++child)
+      for (int other = 0; other < n_ranks && owners[static_cast<std::size_t>(child)] >= 0; ++other)
+        needs.note(other, owners[static_cast<std::size_t>(child)], child);
+  }
+  for (int b = 0; b < static_cast<int>(tree.boxes().size()); ++b) {
+    const Box& box = tree.box(b);
+    const auto level = static_cast<std::size_t>(box.level);
+    if (owners[static_cast<std::size_t>(b)] == rank) note_box(b, shares.source_boxes[level]);
+    if (box.targets.count > 0 && box.targets.first < own.first + own.count &&
+        box.targets.first + box.targets.count > own.first)
+      note_box(b, shares.target_boxes[level]);
+    for (const FarPair* pair = tree.v_list().begin(b); pair != tree.v_list().end(b); ++pair)
+      needs.note(box, pair->source);
+  }
+  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
+    const Box& box = tree.box(tree.target_leaves()[static_cast<std::size_t>(leaf)]);
+    for (const int* fine = tree.w_list().begin(leaf); fine != tree.w_list().end(leaf); ++fine) needs.note(box, *fine);
+  }
+  needs.list(shares);
+  return shares;
+}
+
+}  // namespace skein

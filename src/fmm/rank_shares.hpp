@@ -1,0 +1,42 @@
+#pragma once
+
+#include <skein/fmm/fmm_plan.hpp>
+
+#include "fmm/octree.hpp"
+
+#include <vector>
+
+namespace skein {
+
+/// How ranks divide a tree that all of them have: consecutive leaves for each, with about as much work by the counts of
+/// lists. Nothing of a sum's order depends on it.
+///
+/// A box whose sources are all one rank's is that rank's, which makes its coefficients and sends them to those that
+/// need them. The few others, whose sources are several ranks', are made by all.
+struct RankShares {
+  int rank = 0, n_ranks = 1;
+  std::vector<int> first_source, first_target;   ///< [n_ranks + 1], places in the tree's order, at edges of leaves
+  std::vector<IndexRange> source_boxes;          ///< of this rank, per level
+  std::vector<IndexRange> target_boxes;          ///< with targets of this rank, per level
+  std::vector<int> boxes_of_all;                 ///< whose sources are several ranks', fine ones first
+  std::vector<std::vector<int>> sent, received;  ///< [n_ranks]: boxes whose coefficients go to or come from a rank
+  double balance = 1.0;                          ///< the largest work of a rank over the mean
+
+  IndexRange own_targets() const { return range(first_target); }
+  IndexRange own_sources() const { return range(first_source); }
+  bool has_target(const int place) const {
+    const IndexRange own = own_targets();
+    return place >= own.first && place < own.first + own.count;
+  }
+
+ private:
+  IndexRange range(const std::vector<int>& first) const {
+    const auto r = static_cast<std::size_t>(rank);
+    return {first[r], first[r + 1] - first[r]};
+  }
+};
+
+/// @param is_symmetric  the near field meets each pair once
+RankShares share_tree(const Octree& tree, const FmmPlan& plan, bool is_symmetric, int rank, int n_ranks);
+
+}  // namespace skein
