@@ -1,7 +1,6 @@
 #include "runs/known_contact.hpp"
 
-#include <skein/fibers/calibration.hpp>
-#include <skein/fibers/fiber.hpp>
+#include "runs/fiber_in_shear.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,33 +13,6 @@ namespace skein {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-
-bool is_steady_shear(const std::vector<FlowConfig>& flows) {
-  if (flows.size() != 1) return false;
-  const FlowConfig& flow = flows.front();
-  return flow.kind == FlowKind::shear && flow.rate != 0.0 && flow.angular_frequency == 0.0 && flow.phase == 0.0 &&
-         flow.start <= 0.0 && flow.stop == 0.0;
-}
-
-bool lies_along_x(const FiberConfig& fiber) {
-  constexpr double least_cosine = 0.999;
-  // A bend or noise of this size changes when a fiber turns by a per cent of its half period.
-  constexpr double most_bent = 1e-3;
-  return std::abs(fiber.direction.x) >= least_cosine * norm(fiber.direction) && fiber.start_amplitude <= most_bent &&
-         fiber.start_noise <= most_bent;
-}
-
-bool is_uniform(const FiberConfig& fiber) {
-  const auto& profile = fiber.stiffness_profile;
-  return std::all_of(profile.begin(), profile.end(),
-                     [&](const ProfilePoint& point) { return point.factor == profile.front().factor; });
-}
-
-/// Nothing but the flow acts on one fiber as written.
-bool is_alone(const SceneConfig& scene) {
-  return scene.fibers.size() == 1 && scene.gravity.weight == 0.0 && scene.tethers.empty() && scene.torques.empty() &&
-         scene.undulations.empty() && scene.start.checksum.empty();
-}
 
 std::string describe_models(const ContactRow& row) {
   if (row.finest == 1) return "a chain";
@@ -63,13 +35,10 @@ const std::vector<ContactRow>& list_known_contacts() {
 }
 
 std::vector<ContactRow> find_known_contacts(const SceneConfig& scene) {
-  if (!is_alone(scene) || !is_steady_shear(scene.flows) || scene.repulsion.strength > 0.0) return {};
-  const FiberConfig& config = scene.fibers.front();
-  if (config.is_rigid() || !lies_along_x(config) || !is_uniform(config)) return {};
-  const Fiber fiber = make_fibers(scene.fibers).front();
-  const double aspect_ratio = fiber.length() / config.radius;
-  const double stiffness = measure_beam_stiffness(fiber).relaxed_bending /
-                           (scene.fluid.viscosity * std::abs(scene.flows.front().rate) * std::pow(config.radius, 4));
+  if (scene.repulsion.strength > 0.0) return {};
+  const auto fiber = find_fiber_in_shear(scene);
+  if (!fiber) return {};
+  const double aspect_ratio = fiber->aspect_ratio, stiffness = fiber->stiffness;
   std::vector<ContactRow> found;
   constexpr double length_factor = 1.1, stiffness_factor = 1.3;
   for (const ContactRow& row : list_known_contacts()) {
@@ -86,7 +55,8 @@ std::string describe_known_contact(const SceneConfig& scene) {
   if (scene.repulsion.strength > 0.0)
     return "contact: the [repulsion] keeps surfaces apart if it is stronger than what presses them; a run tells how "
            "near they come";
-  if (is_alone(scene) && scene.fibers.front().is_rigid()) return "contact: a straight fiber alone touches nothing";
+  if (is_single_fiber(scene) && scene.fibers.front().is_rigid())
+    return "contact: a straight fiber alone touches nothing";
   const auto rows = find_known_contacts(scene);
   if (rows.empty())
     return "contact: nothing is known before this scene has run; a run counts nodes inside of surfaces, and 'skein "
