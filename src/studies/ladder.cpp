@@ -4,6 +4,7 @@
 #include <skein/fibers/fiber.hpp>
 #include <skein/io/array_file.hpp>
 
+#include "studies/ladder_table.hpp"
 #include "studies/paper_scenes.hpp"
 #include "studies/reference_run.hpp"
 #include "studies/rung.hpp"
@@ -19,20 +20,12 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t n_frames = 400;
 
-/// To which time fibers of a length are followed: one half turn, an S-turn, snaking, and the longest ones until their
-/// ends are pressed into their sides.
-double find_end(const double length) {
-  if (length < 0.16) return 12.0;
-  if (length < 0.3) return 15.0;
-  return length < 0.7 ? 26.0 : 13.0;
-}
-
 SceneConfig make_ladder_scene(const double length, const double stiffness, const int nodes_per_section) {
-  SceneConfig paper = make_paper_scene(count_paper_sections(length), find_end(length));
+  SceneConfig paper = make_paper_scene(count_paper_sections(length), find_ladder_end(length));
   paper.fibers[0].spring_stiffness *= stiffness;
   SceneConfig scene = make_rung_scene(std::move(paper), nodes_per_section);
-  scene.time.tolerance = 3e-5;
-  scene.hydrodynamics.tolerance = 1e-5;
+  scene.time.tolerance = ladder_time_tolerance;
+  scene.hydrodynamics.tolerance = ladder_sum_tolerance;
   return scene;
 }
 

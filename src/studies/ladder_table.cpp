@@ -1,26 +1,46 @@
 #include "studies/ladder_table.hpp"
 
+#include "skein_ladder.hpp"
 #include "studies/rung_name.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 namespace skein {
 namespace {
 
 constexpr int no_rung = -1;
+constexpr std::size_t n_row_questions = 4;  ///< shape, half period, hook radius and snaking speed
 
 std::string name(const int rung) { return rung == no_rung ? "no rung" : describe_rung(rung); }
 
 }  // namespace
 
 const std::vector<LadderRow>& list_ladder() {
-  // The largest over the lengths of perf/ladder.csv.
-  static const std::vector<LadderRow> rows{{1, 0.10},  {4, 0.021},  {5, 0.018},   {6, 0.019},
-                                           {9, 0.017}, {12, 0.016}, {18, 0.0091}, {24, 0.0}};
+  static const std::vector<LadderRow> rows = [] {
+    std::map<int, double> largest;
+    for (const LadderRun& run : measured_ladder) {
+      double& error = largest[run.nodes_per_section];
+      for (std::size_t question = 0; question < n_row_questions; ++question)
+        error = std::max(error, std::isnan(run.errors[question]) ? 0.0 : run.errors[question]);
+    }
+    std::vector<LadderRow> found;
+    for (const auto& [rung, error] : largest) found.push_back({rung, error});
+    return found;
+  }();
   return rows;
+}
+
+std::span<const LadderRun> list_ladder_runs() { return measured_ladder; }
+
+double find_ladder_end(const double length) {
+  if (length < 0.16) return 12.0;
+  if (length < 0.3) return 15.0;
+  return length < 0.7 ? 26.0 : 13.0;
 }
 
 double find_ladder_error(const int nodes_per_section) {

@@ -1,12 +1,34 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace skein {
 
-/// Errors of tubes of so many nodes, 1 being the chain, on a section against those of 24, the paper's fibers in shear;
-/// which are the truth here; by `skein bench ladder`, whose table is perf/ladder.csv.
+/// One of the runs of `skein bench ladder`, as perf/ladder.csv has it: a fiber of the paper's in shear, as a tube of so
+/// many nodes on a section or, 1, a chain. What is not a number had no answer.
+struct LadderRun {
+  double length;  ///< nominal, in the paper's units
+  int nodes_per_section, nodes;
+  double seconds;  ///< wall time, on the machine that the table was made on
+  std::int64_t evaluations;
+  double half_period, hook_radius, snaking_speed, curvature_max;
+  double errors[6];  ///< in the order of list_questions, against 24 nodes, which are the truth here and have none
+  double shape_errors[3];
+};
+std::span<const LadderRun> list_ladder_runs();
+
+/// To which time the table's fibers were followed, in the paper's units: one half turn, an S-turn, snaking, and the
+/// longest ones until their ends are pressed into their sides.
+double find_ladder_end(double length);
+
+/// Tolerance of the table's steps, and of its sums: the nodes alone make the difference. 1 / time, in the paper's units
+constexpr double ladder_time_tolerance = 3e-5;
+constexpr double ladder_sum_tolerance = 1e-5;
+
+/// The largest errors of a rung over the table's lengths.
 struct LadderRow {
   int nodes_per_section;
   double error;  ///< the largest of shape (over the length), half period, hook radius and snaking speed

@@ -4,12 +4,11 @@
 #include <skein/physics/scene_times.hpp>
 
 #include "runs/known_contact.hpp"
+#include "studies/ladder_reach.hpp"
 #include "studies/ladder_table.hpp"
+#include "studies/plan_by_table.hpp"
 #include "studies/plan_candidates.hpp"
-#include "studies/plan_pilots.hpp"
-#include "studies/rung_name.hpp"
-
-#include <fmt/format.h>
+#include "studies/plan_climb.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,240 +19,52 @@
 namespace skein {
 namespace {
 
-/// Climbs the ladder until a rung is good enough.
-class Planner {
- public:
-  Planner(const SceneConfig& scene, const PlanRequest& request, const std::function<void(const std::string&)>& say)
-      : scene_(resolve_times(scene)), request_(request), pilots_(scene_.time.end, request, say) {
-    plan_.end = plan_.pilot_end = scene_.time.end;
-    plan_.known_contact = describe_known_contact(scene_);
+/// What is left to say of every candidate once one is chosen, or none.
+void finish(Plan& plan, const PlanPilots& pilots) {
+  estimate_seconds(plan.candidates);
+  for (std::size_t i = 0; i < plan.candidates.size(); ++i) {
+    Candidate& candidate = plan.candidates[i];
+    const int place = static_cast<int>(i) - plan.chosen;
+    if (place == 0) candidate.verdict = "chosen";
+    if (candidate.verdict.empty()) candidate.verdict = plan.chosen >= 0 && place > 0 ? "dearer" : "not looked at";
+    if (std::isnan(candidate.error)) candidate.error = find_ladder_error(candidate.nodes_per_section);
   }
+  plan.seconds = pilots.seconds();
+  plan.reason = explain_choice(plan, pilots.request());
+}
 
-  Plan make() {
-    plan_.candidates = list_candidates(scene_);
-    // Rigid fibers have steps of their own, whose errors say nothing of those that bend.
-    const auto coarsest = std::find_if(plan_.candidates.begin(), plan_.candidates.end(),
-                                       [](const Candidate& candidate) { return candidate.bends(); });
-    StepChoice steps = choose_steps(pilots_, *coarsest, scene_);
-    plan_.time_tolerance = steps.time_tolerance;
-    plan_.time_error = steps.error;
-    for (Candidate& candidate : plan_.candidates) candidate.scene.time.tolerance = plan_.time_tolerance;
-    climb(static_cast<std::size_t>(coarsest - plan_.candidates.begin()), std::move(steps.pilot));
-    if (plan_.chosen >= 0 && chosen_ && chosen_->is_whole())
-      plan_.variants = try_variants(pilots_, scene_, *chosen_, plan_.candidates[plan_.chosen]);
-    finish();
-    return std::move(plan_);
-  }
-
- private:
-  /// A candidate's pilot that is neither broken off nor senseless.
-  struct Climbed {
-    std::size_t index;
-    Pilot pilot;
-  };
-
-  /// From the lowest rung to the first that is good enough. The difference from the next one tells a rung that is not;
-  /// one that may be is taken where the table's error of the next still fits in, and is set against a finer one else:
-  /// what coarse tubes have in common, no difference between them shows.
-  /// @param known  a pilot of the candidate `coarsest` that has run already
-  void climb(const std::size_t coarsest, std::optional<Pilot> known) {
-    std::optional<Climbed> below;
-    for (std::size_t i = 0; i < plan_.candidates.size(); ++i) {
-      if (plan_.candidates[i].is_barred) continue;
-      auto pilot = i == coarsest && known ? std::move(known) : run_candidate(i);
-      if (!pilot) return;
-      if (!note(plan_.candidates[i], *pilot)) {
-        below.reset();
-        continue;
-      }
-      if (below && judge(*below, i, *pilot)) return choose(std::move(*below));
-      if (below) refine(*below, i, *pilot);
-      if (plan_.chosen >= 0) return;
-      below = Climbed{i, std::move(*pilot)};
-    }
-    // The finest tube has none above it: its error is taken for half of its difference from the one below.
-    Candidate& finest = plan_.candidates.back();
-    const Candidate& last = plan_.candidates[plan_.candidates.size() - 2];
-    if (last.compared_with == finest.nodes_per_section)
-      finest.error = 0.5 * find_largest_error(last.found) + plan_.time_error;
-    else if (!std::isfinite(finest.error))
-      finest.error = find_ladder_error(finest.nodes_per_section) + plan_.time_error;
-    if (finest.error <= request_.tolerance && below && below->index + 1 == plan_.candidates.size())
-      choose(std::move(*below));
-  }
-
-  void choose(Climbed climbed) {
-    plan_.chosen = static_cast<int>(climbed.index);
-    chosen_ = std::move(climbed.pilot);
-  }
-
-  std::optional<Pilot> run_candidate(const std::size_t i) {
-    if (i == reference_index_ && reference_ && reference_->is_whole()) return reference_;
-    return pilots_.run(plan_.candidates[i].scene, describe_rung(plan_.candidates[i].nodes_per_section));
-  }
-
-  /// @returns false where the pilot is no answer: it broke off, fibers crossed, after which it answers another
-  /// question, or surfaces met that are asked to stay apart
-  bool note(Candidate& candidate, const Pilot& pilot) {
-    candidate.seconds = pilot.seconds * scene_.time.end / pilot.end();
-    candidate.contact = record_contact(pilot.analysis);
-    const ContactRecord& contact = candidate.contact;
-    if (!pilot.failure.empty())
-      candidate.verdict = "breaks off: " + pilot.failure;
-    else if (contact.has_crossed() || (pilots_.asks_contact() && contact.depth > request_.tolerance))
-      candidate.verdict = describe_contact(contact);
-    if (candidate.verdict.empty()) {
-      plan_.pilot_end = std::min(plan_.pilot_end, pilot.end());
-      return true;
-    }
-    candidate.error = std::numeric_limits<double>::infinity();
-    return false;
-  }
-
-  /// How much longer the scene takes than pilots did: phases drift with time, and are taken to go on as they did.
-  double rest() const { return plan_.end / plan_.pilot_end; }
-
-  /// The error of a rung whose answers differ so from a better one's.
-  double predict(const int rung, const int better, const double difference) const {
-    const double table = find_ladder_error(better);
-    // How much fibers bend, which rigid ones do not, the better rung says to within its own error of bending ones.
-    const double error = rung == rigid_rung
-                             ? difference * (1.0 + table) + find_rigid_error()
-                             : std::max(difference + table, extrapolate_difference(rung, better, difference));
-    return error * rest() + plan_.time_error;
-  }
-
-  /// @param better  the pilot of the candidate `above`
-  /// @returns true if the lower rung is good enough
-  bool judge(const Climbed& lower, const std::size_t above, const Pilot& better) {
-    Candidate& candidate = plan_.candidates[lower.index];
-    candidate.found = pilots_.list_differences(lower.pilot, better);
-    candidate.compared_with = plan_.candidates[above].nodes_per_section;
-    const double difference = find_largest_error(candidate.found);
-    candidate.error = predict(candidate.nodes_per_section, candidate.compared_with, difference);
-    if (!std::isfinite(plan_.candidates[above].error))
-      plan_.candidates[above].error = find_ladder_error(candidate.compared_with) * rest() + plan_.time_error;
-    if (is_beyond_doubt(candidate, difference)) return true;
-    const bool is_compared = compare_with_reference(candidate, lower.pilot, above + 1, difference);
-    if (is_compared && candidate.error <= request_.tolerance) return true;
-    Question worst = Question::shape;
-    find_largest_error(candidate.found, &worst);
-    candidate.verdict = candidate.error <= request_.tolerance ? "no finer rung had the time to show it"
-                                                              : fmt::format("{} fails", name_of(worst));
-    return false;
-  }
-
-  /// True where a difference from a neighbour is enough: what both have in common is more than in the table in some
-  /// scenes, 2.7 times as much in a U-turn.
-  bool is_beyond_doubt(const Candidate& candidate, const double difference) const {
-    if (!(candidate.error <= request_.tolerance)) return false;
-    constexpr double most_of_table = 3.0;
-    const double common = most_of_table * find_ladder_error(candidate.compared_with);
-    return candidate.nodes_per_section == rigid_rung ||
-           (difference + common) * rest() + plan_.time_error <= request_.tolerance;
-  }
-
-  /// True where a tube has little in common with this one: twice its nodes, or all that there are.
-  bool is_far_above(const int rung, const int nodes_per_section) const {
-    return rung >= 2 * nodes_per_section || rung == plan_.candidates.back().nodes_per_section;
-  }
-
-  /// Measures a rung against the lowest one far above it whose own error, by the table, leaves room for the difference
-  /// that was found, or else against the finest, which runs for a share of the time that pilots may take.
-  /// @param difference  of the candidate from its neighbour
-  /// @returns false where none could be run
-  bool compare_with_reference(Candidate& candidate, const Pilot& run, const std::size_t above,
-                              const double difference) {
-    const auto& all = plan_.candidates;
-    const auto will_do = [&](const Candidate& rung) {
-      return !rung.is_barred && is_far_above(rung.nodes_per_section, candidate.nodes_per_section) &&
-             (difference + find_ladder_error(rung.nodes_per_section)) * rest() + plan_.time_error <= request_.tolerance;
-    };
-    const auto rung = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(above), all.end(), will_do);
-    if (rung == all.end() || !use_reference(static_cast<std::size_t>(rung - all.begin()))) return false;
-    measure(candidate, run);
-    return true;
-  }
-
-  /// @returns false where this one takes too long, or breaks off
-  bool use_reference(const std::size_t index) {
-    if (reference_ && index <= reference_index_) return true;
-    if (index >= too_dear_) return false;
-    constexpr double share_of_pilots = 0.25;
-    const double seconds = share_of_pilots * request_.max_seconds;
-    const Candidate& rung = plan_.candidates[index];
-    auto pilot = pilots_.run(
-        rung.scene, fmt::format("{}, for {:.3g} s at most", describe_rung(rung.nodes_per_section), seconds), seconds);
-    // Differences grow faster than time where fibers flip or meet: less than half of it says too little of the rest.
-    constexpr double least_share = 0.5;
-    if (!pilot || !pilot->failure.empty() || pilot->end() < least_share * scene_.time.end) {
-      too_dear_ = index;
-      return false;
-    }
-    reference_ = std::move(pilot);
-    reference_index_ = index;
-    return true;
-  }
-
-  void measure(Candidate& candidate, const Pilot& run) {
-    const int rung = plan_.candidates[reference_index_].nodes_per_section;
-    plan_.pilot_end = std::min(plan_.pilot_end, reference_->end());
-    candidate.found = pilots_.list_differences(run, *reference_);
-    candidate.compared_with = rung;
-    candidate.error = predict(candidate.nodes_per_section, rung, find_largest_error(candidate.found));
-  }
-
-  /// Where one rung is not good enough, its neighbour above seems so, and numbers of nodes lie between: the first of
-  /// those that is. Each costs about two thirds of the next.
-  /// @param better  the pilot of the candidate `above`
-  void refine(const Climbed& lower, const std::size_t above, const Pilot& better) {
-    const int first = plan_.candidates[lower.index].nodes_per_section + 1;
-    const int last = plan_.candidates[above].nodes_per_section - 1;
-    if (first <= chain_rung + 1 || first > last || !reference_) return;
-    if (pilots_.compare(better, *reference_) > request_.tolerance) return;
-    for (int rung = first; rung <= last; ++rung) {
-      if (!is_far_above(plan_.candidates[reference_index_].nodes_per_section, rung)) return;
-      Candidate between = make_candidate(scene_, rung);
-      if (between.is_barred) continue;
-      between.scene.time.tolerance = plan_.time_tolerance;
-      auto pilot = pilots_.run(between.scene, describe_rung(rung));
-      if (!pilot || !note(between, *pilot)) continue;
-      measure(between, *pilot);
-      if (!(between.error <= request_.tolerance)) continue;
-      plan_.candidates.insert(plan_.candidates.begin() + static_cast<std::ptrdiff_t>(above), std::move(between));
-      return choose({above, std::move(*pilot)});
-    }
-  }
-
-  void finish() {
-    estimate_seconds(plan_.candidates);
-    for (std::size_t i = 0; i < plan_.candidates.size(); ++i) {
-      Candidate& candidate = plan_.candidates[i];
-      const int place = static_cast<int>(i) - plan_.chosen;
-      if (place == 0) candidate.verdict = "chosen";
-      if (candidate.verdict.empty()) candidate.verdict = plan_.chosen >= 0 && place > 0 ? "dearer" : "not looked at";
-      if (std::isnan(candidate.error)) candidate.error = find_ladder_error(candidate.nodes_per_section);
-    }
-    plan_.seconds = pilots_.seconds();
-    plan_.reason = explain_choice(plan_, request_);
-  }
-
-  SceneConfig scene_;
-  const PlanRequest& request_;
-  PlanPilots pilots_;
-  std::optional<Pilot> chosen_;      ///< of the chosen candidate
-  std::optional<Pilot> reference_;   ///< what others were measured against, as far as it got
-  std::size_t reference_index_ = 0;  ///< of the candidates
-  std::size_t too_dear_ = std::numeric_limits<std::size_t>::max();  ///< the lowest candidate that no reference could be
-  Plan plan_;
-};
+std::optional<Pilot> choose_by_pilots(const SceneConfig& scene, PlanPilots& pilots, Plan& plan) {
+  // Rigid fibers have steps of their own, whose errors say nothing of those that bend.
+  const auto coarsest = std::find_if(plan.candidates.begin(), plan.candidates.end(),
+                                     [](const Candidate& candidate) { return candidate.bends(); });
+  constexpr double finest = 0.3;  // of the scene's time tolerance
+  StepChoice steps =
+      choose_steps(pilots, *coarsest, scene, finest * scene.time.tolerance, std::numeric_limits<double>::infinity());
+  plan.time_tolerance = steps.time_tolerance;
+  plan.time_error = steps.error;
+  for (Candidate& candidate : plan.candidates) candidate.scene.time.tolerance = plan.time_tolerance;
+  const auto first = static_cast<std::size_t>(coarsest - plan.candidates.begin());
+  return climb_ladder(scene, pilots, plan, first, std::move(steps.pilot));
+}
 
 }  // namespace
 
-Plan make_plan(const SceneConfig& scene, const PlanRequest& request,
+Plan make_plan(const SceneConfig& asked, const PlanRequest& request,
                const std::function<void(const std::string&)>& say) {
   SKEIN_REQUIRE(request.tolerance > 0.0, "a tolerance is positive");
-  return Planner(scene, request, say).make();
+  const SceneConfig scene = resolve_times(asked);
+  PlanPilots pilots(scene.time.end, request, say);
+  Plan plan;
+  plan.end = plan.pilot_end = scene.time.end;
+  plan.known_contact = describe_known_contact(scene);
+  plan.candidates = list_candidates(scene);
+  std::optional<Pilot> chosen;
+  if (const auto reach = find_ladder_reach(scene, request.asked)) chosen = choose_by_table(scene, *reach, pilots, plan);
+  if (plan.chosen < 0) chosen = choose_by_pilots(scene, pilots, plan);
+  if (plan.chosen >= 0 && chosen && chosen->is_whole())
+    plan.variants = try_variants(pilots, scene, *chosen, plan.candidates[plan.chosen]);
+  finish(plan, pilots);
+  return plan;
 }
 
 }  // namespace skein

@@ -43,16 +43,18 @@ struct Plan {
   double pilot_end = 0.0;             ///< to where pilots ran, of `end`
   double end = 0.0;
   double seconds = 0.0;       ///< that planning took
+  bool is_by_table = false;   ///< the table of convergence has the scene: see ladder_reach.hpp
   std::string variants;       ///< sums and methods that proved faster than the scene's, in words; empty: none
   std::string reason;         ///< in one or two sentences
   std::string known_contact;  ///< what was known of it before, a line: see describe_known_contact
 };
 
-/// Finds it by pilot runs of the scene, from the coarsest rung on. Each is compared with the one above; one that may do
-/// is taken where the error of the one above, by the table of convergence (ladder_table.hpp), fits in besides, or else
-/// set against a finer one, which runs for a quarter of the pilots' time at most. Steps are as long as a quarter of the
-/// tolerance lets them be, found on the lowest rung that bends. Where a rung does and the one below does
-/// not, other numbers of nodes between them are tried. Needs Kokkos.
+/// Finds it in the table of convergence where that has the scene (ladder_reach.hpp), and else by pilot runs of the
+/// scene, from the coarsest rung on. Each is compared with the one above; one that may do is taken where the error of
+/// the one above, by the table of convergence (ladder_table.hpp), fits in besides, or else set against a finer one,
+/// which runs for a quarter of the pilots' time at most. Steps are as long as a quarter of the tolerance lets them be,
+/// found on the lowest rung that bends. Where a rung does and the one below does not, other numbers of nodes between
+/// them are tried. Needs Kokkos.
 /// @param scene  its fibers are as written
 /// @param say    called with a line before each pilot
 Plan make_plan(const SceneConfig& scene, const PlanRequest& request,

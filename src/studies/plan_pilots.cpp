@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace skein {
@@ -32,26 +33,29 @@ std::optional<Pilot> PlanPilots::run(const SceneConfig& scene, const std::string
   return pilot;
 }
 
-StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const SceneConfig& scene) {
+StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const SceneConfig& scene, const double finest,
+                        const double room) {
   StepChoice choice;
-  choice.time_tolerance = scene.time.tolerance;
+  choice.time_tolerance = std::isfinite(room) ? finest : scene.time.tolerance;
   if (scene.time.step > 0.0) return choice;  // the scene says how long they are
   SceneConfig tried = candidate.scene;
-  const auto pilot_at = [&](const double factor) {
-    tried.time.tolerance = factor * scene.time.tolerance;
+  const auto pilot_at = [&](const double tolerance) {
+    tried.time.tolerance = tolerance;
     return pilots.run(tried, fmt::format("{}, time.tolerance {:.3g}", describe_rung(candidate.nodes_per_section),
                                          tried.time.tolerance));
   };
-  const auto best = pilot_at(0.3);
+  auto best = pilot_at(finest);
   if (!best) return choice;
   constexpr double share_of_time = 0.25;  // of the tolerance, that steps may use up
+  const double most = std::min(room, share_of_time * pilots.request().tolerance);
   for (const double factor : {30.0, 10.0, 3.0, 1.0}) {
-    auto pilot = pilot_at(factor);
+    auto pilot = pilot_at(factor * scene.time.tolerance);
     if (!pilot || !pilot->failure.empty()) continue;
     const double error = pilots.compare(*pilot, *best);
-    if (error > share_of_time * pilots.request().tolerance && factor > 1.0) continue;
-    return {factor * scene.time.tolerance, error, std::move(pilot)};
+    const bool is_allowed = factor == 1.0 ? error <= room : error <= most;
+    if (is_allowed) return {factor * scene.time.tolerance, error, std::move(pilot)};
   }
+  if (std::isfinite(room)) choice.pilot = std::move(best);
   return choice;
 }
 

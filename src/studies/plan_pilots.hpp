@@ -52,7 +52,12 @@ struct StepChoice {
   double error = 0.0;          ///< that they cause
   std::optional<Pilot> pilot;  ///< of the candidate with them; none where nothing was tried
 };
-StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const SceneConfig& scene);
+
+/// @param finest  time tolerance of the steps that others are compared with
+/// @param room    for their error; where not even the scene's own steps stay below, the finest are taken. Infinite: the
+///                scene's own are good enough
+StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const SceneConfig& scene, double finest,
+                        double room);
 
 /// Of the chosen candidate: pairs in single precision and an implicit method, where the scene leaves the choice open.
 /// One that is no faster is given up in the time that the chosen one took.

@@ -30,6 +30,7 @@ std::string explain_choice(const Plan& plan, const PlanRequest& request) {
     const Candidate& chosen = plan.candidates[plan.chosen];
     std::string text = fmt::format("{} is the cheapest whose answers stay within {:g} %",
                                    describe_rung(chosen.nodes_per_section), percent);
+    if (plan.is_by_table) return text + ", by the table of convergence, which has this fiber";
     if (!chosen.found.empty()) text += ", by the difference from " + describe_rung(chosen.compared_with);
     return text;
   }
@@ -97,7 +98,9 @@ std::string describe_plan_as_json(const Plan& plan, const PlanRequest& request) 
   } else {
     json.null();
   }
-  json.member("time_tolerance", plan.time_tolerance).member("time_error", plan.time_error);
+  json.member("by_table", plan.is_by_table)
+      .member("time_tolerance", plan.time_tolerance)
+      .member("time_error", plan.time_error);
   json.member("variants", plan.variants).member("reason", plan.reason);
   json.member("known_contact", plan.known_contact)
       .member("pilot_end", plan.pilot_end)

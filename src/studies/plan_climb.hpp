@@ -1,0 +1,28 @@
+#pragma once
+
+#include "studies/plan_pilots.hpp"
+
+#include <optional>
+
+namespace skein {
+
+/// Climbs the ladder of a plan's candidates by pilot runs, until one is good enough: it becomes the chosen one.
+///
+/// From the lowest rung to the first that is good enough. The difference from the next one tells a rung that is not;
+/// one that may be is taken where the table's error of the next still fits in, and is set against a finer one else:
+/// what coarse tubes have in common, no difference between them shows.
+/// @param scene     its times are resolved
+/// @param plan      its candidates are listed, its steps chosen
+/// @param coarsest  the lowest candidate that bends
+/// @param known     a pilot of that candidate that has run already
+/// @returns the chosen one's pilot; none where none is good enough
+std::optional<Pilot> climb_ladder(const SceneConfig& scene, PlanPilots& pilots, Plan& plan, std::size_t coarsest,
+                                  std::optional<Pilot> known);
+
+/// Writes down what a candidate's pilot took, and contact.
+/// @returns false where the pilot is no answer: it broke off, fibers crossed, after which it answers another question,
+/// or surfaces met that are asked to stay apart
+bool note_pilot(const SceneConfig& scene, const PlanPilots& pilots, Plan& plan, Candidate& candidate,
+                const Pilot& pilot);
+
+}  // namespace skein
