@@ -1,7 +1,6 @@
 #include "studies/plan_by_table.hpp"
 
 #include "studies/plan_candidates.hpp"
-#include "studies/plan_climb.hpp"
 #include "studies/rung_name.hpp"
 
 #include <fmt/format.h>

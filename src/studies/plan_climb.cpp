@@ -1,6 +1,7 @@
 #include "studies/plan_climb.hpp"
 
 #include "studies/ladder_table.hpp"
+#include "studies/plan_amplification.hpp"
 #include "studies/plan_candidates.hpp"
 #include "studies/rung_name.hpp"
 
@@ -41,6 +42,8 @@ class LadderClimb {
         below.reset();
         continue;
       }
+      if (!amplification_ && plan_.candidates[i].nodes_per_section > chain_rung)
+        amplification_ = measure_amplification(pilots_, plan_.candidates[i], *pilot);
       if (below && judge(*below, i, *pilot)) {
         // What it was set against may have come too late for the rungs below it.
         refine(failed, below->index, below->pilot);
@@ -108,11 +111,12 @@ class LadderClimb {
   }
 
   /// True where a difference from a neighbour is enough: what both have in common is more than in the table in some
-  /// scenes, 2.7 times as much in a U-turn.
+  /// scenes, 2.7 times as much in a U-turn, and more still where little things grow.
   bool is_beyond_doubt(const Candidate& candidate, const double difference) const {
     if (!(candidate.error <= pilots_.request().tolerance)) return false;
     constexpr double most_of_table = 3.0;
-    const double common = most_of_table * find_ladder_error(candidate.compared_with);
+    const double common =
+        std::max(most_of_table, amplification_.value_or(0.0)) * find_ladder_error(candidate.compared_with);
     return candidate.nodes_per_section == rigid_rung ||
            (difference + common) * rest() + plan_.time_error <= pilots_.request().tolerance;
   }
@@ -129,10 +133,11 @@ class LadderClimb {
   bool compare_with_reference(Candidate& candidate, const Pilot& run, const std::size_t above,
                               const double difference) {
     const auto& all = plan_.candidates;
+    const double growth = std::max(1.0, 0.5 * amplification_.value_or(0.0));
     const auto will_do = [&](const Candidate& rung) {
+      const double common = growth * find_ladder_error(rung.nodes_per_section);
       return !rung.is_barred && is_far_above(rung.nodes_per_section, candidate.nodes_per_section) &&
-             (difference + find_ladder_error(rung.nodes_per_section)) * rest() + plan_.time_error <=
-                 pilots_.request().tolerance;
+             (difference + common) * rest() + plan_.time_error <= pilots_.request().tolerance;
     };
     const auto rung = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(above), all.end(), will_do);
     if (rung == all.end() || !use_reference(static_cast<std::size_t>(rung - all.begin()))) return false;
@@ -197,9 +202,10 @@ class LadderClimb {
   const SceneConfig& scene_;
   PlanPilots& pilots_;
   Plan& plan_;
-  std::optional<Pilot> chosen_;      ///< of the chosen candidate
-  std::optional<Pilot> reference_;   ///< what others were measured against, as far as it got
-  std::size_t reference_index_ = 0;  ///< of the candidates
+  std::optional<double> amplification_;  ///< none before a tube's pilot has run
+  std::optional<Pilot> chosen_;          ///< of the chosen candidate
+  std::optional<Pilot> reference_;       ///< what others were measured against, as far as it got
+  std::size_t reference_index_ = 0;      ///< of the candidates
   std::size_t too_dear_ = std::numeric_limits<std::size_t>::max();  ///< the lowest candidate that no reference could be
 };
 
@@ -208,23 +214,6 @@ class LadderClimb {
 std::optional<Pilot> climb_ladder(const SceneConfig& scene, PlanPilots& pilots, Plan& plan, const std::size_t coarsest,
                                   std::optional<Pilot> known) {
   return LadderClimb(scene, pilots, plan).run(coarsest, std::move(known));
-}
-
-bool note_pilot(const SceneConfig& scene, const PlanPilots& pilots, Plan& plan, Candidate& candidate,
-                const Pilot& pilot) {
-  candidate.seconds = pilot.seconds * scene.time.end / pilot.end();
-  candidate.contact = record_contact(pilot.analysis);
-  const ContactRecord& contact = candidate.contact;
-  if (!pilot.failure.empty())
-    candidate.verdict = "breaks off: " + pilot.failure;
-  else if (contact.has_crossed() || (pilots.asks_contact() && contact.depth > pilots.request().tolerance))
-    candidate.verdict = describe_contact(contact);
-  if (candidate.verdict.empty()) {
-    plan.pilot_end = std::min(plan.pilot_end, pilot.end());
-    return true;
-  }
-  candidate.error = std::numeric_limits<double>::infinity();
-  return false;
 }
 
 }  // namespace skein

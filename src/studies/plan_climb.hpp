@@ -19,10 +19,4 @@ namespace skein {
 std::optional<Pilot> climb_ladder(const SceneConfig& scene, PlanPilots& pilots, Plan& plan, std::size_t coarsest,
                                   std::optional<Pilot> known);
 
-/// Writes down what a candidate's pilot took, and contact.
-/// @returns false where the pilot is no answer: it broke off, fibers crossed, after which it answers another question,
-/// or surfaces met that are asked to stay apart
-bool note_pilot(const SceneConfig& scene, const PlanPilots& pilots, Plan& plan, Candidate& candidate,
-                const Pilot& pilot);
-
 }  // namespace skein

@@ -59,6 +59,23 @@ StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const Sc
   return choice;
 }
 
+bool note_pilot(const SceneConfig& scene, const PlanPilots& pilots, Plan& plan, Candidate& candidate,
+                const Pilot& pilot) {
+  candidate.seconds = pilot.seconds * scene.time.end / pilot.end();
+  candidate.contact = record_contact(pilot.analysis);
+  const ContactRecord& contact = candidate.contact;
+  if (!pilot.failure.empty())
+    candidate.verdict = "breaks off: " + pilot.failure;
+  else if (contact.has_crossed() || (pilots.asks_contact() && contact.depth > pilots.request().tolerance))
+    candidate.verdict = describe_contact(contact);
+  if (candidate.verdict.empty()) {
+    plan.pilot_end = std::min(plan.pilot_end, pilot.end());
+    return true;
+  }
+  candidate.error = std::numeric_limits<double>::infinity();
+  return false;
+}
+
 std::string try_variants(PlanPilots& pilots, const SceneConfig& scene, const Pilot& best, Candidate& chosen) {
   std::string faster;
   const auto try_out = [&](SceneConfig tried, const std::string& words) {

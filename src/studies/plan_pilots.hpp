@@ -59,6 +59,12 @@ struct StepChoice {
 StepChoice choose_steps(PlanPilots& pilots, const Candidate& candidate, const SceneConfig& scene, double finest,
                         double room);
 
+/// Writes down what a candidate's pilot took, and contact.
+/// @returns false where the pilot is no answer: it broke off, fibers crossed, after which it answers another question,
+/// or surfaces met that are asked to stay apart
+bool note_pilot(const SceneConfig& scene, const PlanPilots& pilots, Plan& plan, Candidate& candidate,
+                const Pilot& pilot);
+
 /// Of the chosen candidate: pairs in single precision and an implicit method, where the scene leaves the choice open.
 /// One that is no faster is given up in the time that the chosen one took.
 /// @param pilot  the chosen one's, whole

@@ -66,6 +66,24 @@ class Planning(InFreshFolder):
                                       cwd=self.folder, capture_output=True, text=True)
             self.assertEqual(compared.returncode, code, compared.stdout + compared.stderr)
 
+    def test_a_fiber_of_the_table_of_convergence_is_planned_by_it(self):
+        """The paper's shortest one: its chain is 5.6 % off in perf/ladder.csv, four nodes are 1.2 %."""
+        def plan(*words):
+            scene = (SOURCES / "configs/lagrone2019_L0139.toml").resolve()
+            result = skein("plan", scene, "--json", "-q", *words, cwd=self.folder, timeout=400)
+            self.assertEqual(result.returncode, DONE, result.stderr)
+            return json.loads(result.stdout)
+
+        for words, rung in ((("--tolerance", "0.1"), 1), (("--tolerance", "0.03", "--within", "0.000001"), 4)):
+            planned = plan(*words)
+            self.assertTrue(planned["by_table"])
+            self.assertEqual(planned["chosen"], rung)
+            self.assertIn("table of convergence", planned["reason"])
+        # Where no pilot has time to choose longer steps, they are the table's own.
+        self.assertEqual(planned["time_tolerance"], 3e-5)
+        self.assertEqual(planned["time_error"], 0)
+        self.assertFalse(plan("--tolerance", "0.1", "--set", "time.end=3")["by_table"])
+
     def test_run_plans_and_runs(self):
         self.expect(DONE, "run", "scene.toml", "-o", "quick", "-q", "--plan", "0.1", "--set", "time.end=2.0")
         self.expect(DONE, "verify", "quick")
