@@ -78,6 +78,24 @@ def describe_fibers(scene):
     return f"{count} fiber{'s' if count > 1 else ''}"
 
 
+def make_sweep(program, sweep, folder):
+    """Runs what is open of a sweep, and draws it. Which runs are done the sweep itself knows."""
+    print(f"gallery: {sweep.stem}, a sweep", flush=True)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    call(program, "sweep", sweep, "-o", folder, "-q")
+
+
+def show_sweep(sweep, folder, target):
+    text = sweep.read_text(encoding="utf-8")
+    parts = [f"### {sweep.stem}", "", f"**{tomllib.loads(text)['title']}.** {read_comment(text)}", ""]
+    pictures = sorted((folder / "pictures").glob("*.png")) if folder else []
+    for picture in pictures:
+        shutil.copy(picture, target / f"sweep_{sweep.stem}_{picture.name}")
+    figures = [f'<figure><a href="../gallery/sweep_{sweep.stem}_{picture.name}"><img loading="lazy" alt="{sweep.stem}" '
+               f'src="../gallery/sweep_{sweep.stem}_{picture.name}"></a></figure>' for picture in pictures]
+    return "\n".join(parts + (['<div class="gallery">', *figures, "</div>", ""] if figures else []))
+
+
 def show_scene(scene, run, target):
     text = scene.read_text(encoding="utf-8")
     content = tomllib.loads(text)
@@ -121,6 +139,12 @@ def main():
         if run is not None:
             make_run(options.program, scene, run)
         shown.append(show_scene(scene, run, target))
+    shown += ["## Sweeps", "", "Many runs of one scene, in [configs/sweeps](../configs/sweeps) ([how](sweeps.md)).", ""]
+    for sweep in sorted(options.configs.glob("sweeps/*.toml")):
+        folder = options.runs / f"sweep_{sweep.stem}" if options.scenes == "all" else None
+        if folder:
+            make_sweep(options.program, sweep, folder)
+        shown.append(show_sweep(sweep, folder, target))
     (options.parts / "gallery.md").write_text("\n".join(shown), encoding="utf-8")
 
 

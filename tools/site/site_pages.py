@@ -14,7 +14,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 PARTS = os.environ["SKEIN_SITE_PARTS"]
 PROGRAM = os.environ["SKEIN_SITE_PROGRAM"]
 # Folders that a page links to, and what shows them here; the others stay words.
-FOLDERS = {"configs": "docs/gallery.html", "include/skein": "cpp/files.html", "examples": "examples/README.html",
+FOLDERS = {"configs": "docs/gallery.html", "configs/sweeps": "docs/sweeps.html",
+           "include/skein": "cpp/files.html", "examples": "examples/README.html",
            "examples/notebooks": "docs/python.html", "tests/reference": "tests/reference/README.html"}
 PYTHON_CLASSES = ("Run", "Frame", "Scene", "Plan", "Mobility", "Velocities")
 PYTHON_FUNCTIONS = ("run", "resume", "analyze", "plan", "mobility", "set_threads", "describe_build")
