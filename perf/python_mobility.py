@@ -3,9 +3,9 @@
 
 The library's evaluations are those of `bench_points`, another process with the same points, forces, tolerance and threads. The
 two take turns, one evaluation each, so that what else the machine does meets both; what is compared is the median of the ratios
-of neighbours in time. Python's calls are those of a Mobility that is kept: with arrays in Fortran's order, which are used where
-they are, and with rows of x, y, z, which are copied. All velocities are compared to the bit. Ends with 1 where Python takes more
-than 5 % longer than the library with the same checks.
+of neighbours in time. Python's calls are skein.mobility's: with arrays in Fortran's order, which are used where they are, and with
+rows of x, y, z, which are copied. All velocities are compared to the bit. Ends with 1 where Python takes more than 5 % longer
+than the library with the same checks.
 """
 import os
 import statistics
@@ -13,6 +13,9 @@ import subprocess
 import sys
 import tempfile
 import time
+
+# Threads of the process whose turn it is not sleep, in both.
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 import numpy as np
 
@@ -38,9 +41,9 @@ class Library:
         self.process.wait()
 
 
-def timed(mobility, arrays):
+def timed(arrays, tolerance):
     start = time.perf_counter()
-    found = mobility(*arrays)
+    found = skein.mobility(*arrays, tolerance=tolerance, viscosity=VISCOSITY)
     return time.perf_counter() - start, found
 
 
@@ -51,12 +54,11 @@ def compare(bench, folder, arrays, tolerance):
     np.concatenate([positions.ravel("F"), forces.ravel("F"), blobs]).tofile(path)
     rows = np.ascontiguousarray(positions), np.ascontiguousarray(forces), blobs
     checked, unchecked = (Library(bench, path, tolerance, every) for every in (1, 0))
-    kept = skein.Mobility(tolerance, VISCOSITY)
     times = []
     for turn in range(TURNS + 1):
         there = checked.evaluate(), unchecked.evaluate()
-        here, found = timed(kept, arrays)
-        copied, same = timed(kept, rows)
+        here, found = timed(arrays, tolerance)
+        copied, same = timed(rows, tolerance)
         if turn > 0:  # the first makes operators
             times.append((*there, here, copied))
     checked.close()

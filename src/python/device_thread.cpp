@@ -109,7 +109,10 @@ void run_on_device_thread(const std::function<void()>& work) {
 
 void leave_to_device_thread(std::function<void()> work) {
   const std::lock_guard lock(beginning_or_end);
-  if (device_thread != nullptr && device_thread->is_of_this_process()) device_thread->post(std::move(work));
+  if (device_thread != nullptr && device_thread->is_of_this_process())
+    device_thread->post(std::move(work));
+  else  // the process ends, or was forked: what is held of the device can be given back to nobody
+    static_cast<void>(new std::function<void()>(std::move(work)));
 }
 
 void end_device_thread() {

@@ -11,7 +11,9 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -152,14 +154,19 @@ class PointMobility {
         const ErrorRecord record = mobility_->error_record();
         error = record.order == 0 ? 0.0 : record.last;
         method = record.order == 0 ? "direct sum" : mobility_->describe();
+        misses_ = record.n_misses;
         for (const std::string& message : mobility_->take_messages()) log_warning(message);
       });
     }
     return {std::move(velocity), error, std::move(method)};
   }
 
+  /// How many calls found more error than the tolerance: from the first on results depend on it.
+  std::int64_t misses() const { return misses_; }
+
  private:
   std::shared_ptr<Mobility> mobility_;
+  std::atomic<std::int64_t> misses_ = 0;
 };
 
 }  // namespace
@@ -169,7 +176,8 @@ void bind_mobility(py::module_& module) {
       .def(py::init<double, double>(), py::arg("tolerance"), py::arg("viscosity"),
            py::call_guard<py::gil_scoped_release>())
       .def("find_velocities", &PointMobility::find_velocities, py::arg("positions"), py::arg("forces"),
-           py::arg("blobs"), py::arg("targets"));
+           py::arg("blobs"), py::arg("targets"))
+      .def_property_readonly("misses", &PointMobility::misses);
 }
 
 }  // namespace skein

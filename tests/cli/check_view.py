@@ -103,18 +103,22 @@ class Page(InFreshFolder):
 
     @unittest.skipUnless(CHROMIUM, "there is no Chromium")
     def test_it_draws_and_plays_in_a_browser(self):
-        page = self.make_page()
-        result = subprocess.run(
-            [CHROMIUM, "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-             f"--user-data-dir={self.folder / 'profile'}", "--window-size=900,600", "--enable-logging=stderr",
-             "--virtual-time-budget=8000", "--dump-dom", f"file://{page}#check"],
-            capture_output=True, text=True, timeout=400, env={**os.environ, "HOME": str(self.folder)})
-        said = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
-        self.assertEqual([line for line in said if "GPU stall" not in line], [])
-        body = dict(re.findall(r'data-(\w+)="([^"]*)"', re.search(r"<body[^>]*>", result.stdout)[0]))
-        self.assertGreater(int(body["coloured"]), 500, body)  # pixels
-        self.assertGreater(int(body["played"]), 1, body)
-        self.assertEqual(body["frame"], "3", body)
+        cloud = '[placement]\nkind = "grid"\ngrid = [3.0, 2.0, 1.0]\nspacing = [0.1, 0.05, 0.05]\n'
+        for scene, least in ((SMALL_SCENE, 500), (SMALL_SCENE + cloud, 2000)):
+            with self.subTest(scene):
+                shutil.rmtree(self.folder / "run", ignore_errors=True)
+                page = self.make_page(scene=scene)
+                result = subprocess.run(
+                    [CHROMIUM, "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                     f"--user-data-dir={self.folder / 'profile'}", "--window-size=900,600", "--enable-logging=stderr",
+                     "--virtual-time-budget=8000", "--dump-dom", f"file://{page}#check"],
+                    capture_output=True, text=True, timeout=400, env={**os.environ, "HOME": str(self.folder)})
+                said = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
+                self.assertEqual([line for line in said if "GPU stall" not in line], [])
+                body = dict(re.findall(r'data-(\w+)="([^"]*)"', re.search(r"<body[^>]*>", result.stdout)[0]))
+                self.assertGreater(int(body["coloured"]), least, body)  # pixels
+                self.assertGreater(int(body["played"]), 1, body)
+                self.assertEqual(body["frame"], "3", body)
 
 
 def read_style(page):

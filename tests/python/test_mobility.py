@@ -1,10 +1,14 @@
 """Velocities from Python against sums written here: test_mobility.py PROGRAM SOURCES."""
 
+import subprocess
+import sys
 import unittest
+import unittest.mock
 
 import numpy as np
 
 from python_case import main, skein
+from skein import fluid
 
 VISCOSITY, BLOB = 1.7, 0.03
 RANDOM = np.random.default_rng(1)
@@ -77,6 +81,36 @@ class Mobility(unittest.TestCase):
         np.testing.assert_array_equal(mobility(positions, forces, 1e-3).velocities, first)
         np.testing.assert_array_equal(skein.mobility(positions, forces, 1e-3, tolerance=1e-4,
                                                      viscosity=VISCOSITY).velocities, first)
+
+    def test_the_function_keeps_what_serves_the_next_call_and_no_more(self):
+        made = []
+
+        class Counted(fluid.Mobility):
+            def __init__(self, *arguments):
+                super().__init__(*arguments)
+                made.append(self)
+
+        positions, forces = draw(20)
+        with unittest.mock.patch.object(fluid, "Mobility", Counted), unittest.mock.patch.object(fluid, "_kept", None):
+            for tolerance, n_made in ((1e-4, 1), (1e-4, 1), (1e-5, 2), (1e-4, 3), (1e-4, 3)):
+                skein.mobility(positions, forces, BLOB, tolerance=tolerance)
+                self.assertEqual(len(made), n_made)
+            self.assertRaises(skein.UsageError, lambda: skein.mobility(positions, forces[:3], BLOB, tolerance=1e-4))
+            with unittest.mock.patch.object(fluid, "_most_points_kept", 19):
+                skein.mobility(positions, forces, BLOB, tolerance=1e-4)  # anew, after the error
+                skein.mobility(positions, forces, BLOB, tolerance=1e-4)  # anew, as there were too many points
+            self.assertEqual(len(made), 5)
+            with unittest.mock.patch.object(Counted, "misses", 1):
+                skein.mobility(positions, forces, BLOB, tolerance=1e-4)
+            skein.mobility(positions, forces, BLOB, tolerance=1e-4)  # anew, as the order was raised
+            self.assertEqual(len(made), 7)
+
+    def test_a_mobility_may_live_until_python_ends(self):
+        code = ("import numpy as np, skein\nkept = skein.Mobility(1e-4)\n"
+                "points = np.random.default_rng(1).uniform(-1.0, 1.0, (3000, 3))\n"
+                "kept(points, points, 1e-3)\nskein.mobility(points, points, 1e-3)")
+        ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=100)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
 
     def test_nothing_gives_nothing(self):
         self.assertEqual(skein.mobility(np.empty((0, 3)), np.empty((0, 3)), 0.1).velocities.shape, (0, 3))

@@ -52,6 +52,11 @@ class Mobility:
         return Velocities(*self._native.find_velocities(positions, _numbers("forces", forces), blobs,
                                                         None if targets is None else _numbers("targets", targets)))
 
+    @property
+    def misses(self):
+        """How many calls found an error above the tolerance, and were made again with a higher order."""
+        return self._native.misses
+
     def operator(self, positions, blobs):
         """The map from forces to velocities at fixed sources, [3 n, 3 n], as a SciPy LinearOperator: for its iterative
         solvers. A vector holds x, y, z of the first point, then of the second, and so on. Its transpose is itself if the
@@ -78,8 +83,22 @@ def mobility(positions, forces, blobs, targets=None, tolerance=1e-6, viscosity=1
     @param forces     [n, 3], on the fluid
     @param blobs      one length over which forces are spread, or [n], > 0
     @param targets    [m, 3], length; at the sources without
-    @returns Velocities(velocities [n or m, 3], error, method)"""
-    return Mobility(tolerance, viscosity)(positions, forces, blobs, targets)
+    @returns Velocities(velocities [n or m, 3], error, method)
+
+    What the last call's Mobility holds is used again where tolerance and viscosity are the same: operators, and 200 bytes a
+    point, but not after calls with more than 300 000 points. Results do not depend on it."""
+    global _kept
+    used = _kept if _kept is not None and (_kept.tolerance, _kept.viscosity) == (tolerance, viscosity) else None
+    _kept = None  # also where the call fails
+    used = used or Mobility(tolerance, viscosity)
+    found = used(positions, forces, blobs, targets)
+    if not used.misses and len(found.velocities) <= _most_points_kept and len(positions) <= _most_points_kept:
+        _kept = used
+    return found
+
+
+_kept = None  # of the last call of mobility()
+_most_points_kept = 300_000
 
 
 def _numbers(name, values):
