@@ -36,7 +36,8 @@ def read_comment(text):
     for line in text.splitlines():
         if not line.startswith("#"):
             break
-        lines.append(line.lstrip("#").strip())
+        words = line.removeprefix("#")
+        lines.append(f"`{words.strip()}`" if words.startswith("   ") else words.strip())  # a command stands farther in
     parts = re.split(r"(`[^`]*`)", "\n".join(lines).strip())
     return "".join(part if number % 2 else re.sub(r"([*_<$|])", r"\\\1", part) for number, part in enumerate(parts))
 
