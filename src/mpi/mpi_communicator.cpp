@@ -81,6 +81,7 @@ class MpiCommunicator final : public Communicator {
   }
 
   void broadcast(void* data, std::size_t bytes) override {
+    traffic_.broadcast_bytes += static_cast<double>(bytes);
     for (auto* at = static_cast<char*>(data); bytes > 0;) {
       const std::size_t piece = std::min(bytes, largest_piece);
       MPI_Request request;
@@ -93,9 +94,11 @@ class MpiCommunicator final : public Communicator {
 
   void gather(const double* own, const RankParts& parts, double* all) override {
     const std::vector<int> count = to_ints(parts.count), first = to_ints(parts.first);
+    traffic_.gathered_bytes +=
+        sizeof(double) * static_cast<double>(rank_ == 0 ? parts.total() : parts.count[own_rank()]);
     MPI_Request request;
-    check(MPI_Igatherv(own, count[static_cast<std::size_t>(rank_)], MPI_DOUBLE, all, count.data(), first.data(),
-                       MPI_DOUBLE, 0, sums_, &request),
+    check(MPI_Igatherv(own, count[own_rank()], MPI_DOUBLE, all, count.data(), first.data(), MPI_DOUBLE, 0, sums_,
+                       &request),
           "MPI_Igatherv");
     wait(request);
   }
@@ -103,6 +106,7 @@ class MpiCommunicator final : public Communicator {
   void exchange(const double* send, const RankParts& sent, double* receive, const RankParts& received) override {
     const std::vector<int> n_sent = to_ints(sent.count), first_sent = to_ints(sent.first);
     const std::vector<int> n_received = to_ints(received.count), first_received = to_ints(received.first);
+    traffic_.exchanged_bytes += sizeof(double) * static_cast<double>(sent.total() - sent.count[own_rank()]);
     MPI_Request request;
     check(MPI_Ialltoallv(send, n_sent.data(), first_sent.data(), MPI_DOUBLE, receive, n_received.data(),
                          first_received.data(), MPI_DOUBLE, sums_, &request),
@@ -120,6 +124,7 @@ class MpiCommunicator final : public Communicator {
   }
 
   double work_seconds() const override { return work_seconds_; }
+  RankTraffic traffic() const override { return traffic_; }
 
   [[noreturn]] void fail(const int exit_code, const std::string& message) override {
     end_work();
@@ -151,8 +156,11 @@ class MpiCommunicator final : public Communicator {
   }
 
  private:
+  std::size_t own_rank() const { return static_cast<std::size_t>(rank_); }
+
   void wait(MPI_Request& request) {
     note_work();
+    const double start = now();
     int done = 0;
     for (int n_tests = 0; done == 0; ++n_tests) {
       check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
@@ -162,6 +170,8 @@ class MpiCommunicator final : public Communicator {
       else if (n_tests > yield_after)
         std::this_thread::yield();
     }
+    traffic_.messages += 1.0;
+    traffic_.wait_seconds += now() - start;
     if (works_) work_since_ = now();
   }
 
@@ -256,6 +266,7 @@ class MpiCommunicator final : public Communicator {
   int rank_ = 0, size_ = 1;
   bool is_watched_ = false, works_ = false;
   double work_seconds_ = 0.0;
+  RankTraffic traffic_;
   std::atomic<double> work_since_{-1.0}, longest_work_{0.0}, problem_at_{0.0};
   std::atomic<bool> is_over_{false}, has_problem_{false}, is_said_{false};
   std::atomic<int> problem_code_{0};

@@ -15,6 +15,13 @@ struct RankParts {
   std::size_t total() const { return count.empty() ? 0 : first.back() + count.back(); }
 };
 
+/// What a process has sent and received since it began, and how long it has waited for it.
+struct RankTraffic {
+  double broadcast_bytes = 0.0, gathered_bytes = 0.0, exchanged_bytes = 0.0;
+  double messages = 0.0;      ///< calls that move something, of any kind
+  double wait_seconds = 0.0;  ///< for others to come and for bytes to move
+};
+
 /// Processes that compute one run together: rank 0 leads, the others do what it asks for. All arrays are in the host's
 /// memory. Every function that sends is called by all ranks, in the same order.
 ///
@@ -44,6 +51,7 @@ class Communicator {
   virtual void end_work() {}
   /// Wall time that this process has worked since it began, seconds: without what it waited for others.
   virtual double work_seconds() const { return 0.0; }
+  virtual RankTraffic traffic() const { return {}; }
 
   /// Tells rank 0 why this rank cannot go on, and waits to be ended.
   [[noreturn]] virtual void fail(int exit_code, const std::string& message) = 0;

@@ -1,0 +1,139 @@
+// Sums that ranks share, by the wall time of rank 0, and what it takes of each rank. By itself, or under mpirun.
+// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [tiny]
+// A line of each sum: ranks, threads, nodes, seconds (fastest and median), work and waiting of the busiest rank, and
+// bytes.
+
+#include <skein/arrays/runtime.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
+#include <skein/physics/sum_team.hpp>
+
+#include "harness.hpp"
+#include "mpi/launch.hpp"
+#include "node_arrangements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace skein {
+namespace {
+
+constexpr double viscosity = 1.0;
+
+struct Problem {
+  std::string name;
+  Vectors position, force, velocity;
+  Scalars blob;
+
+  Problem(std::string title, const std::vector<Vec3>& nodes, const double blob_size)
+      : name(std::move(title)),
+        position(to_device("skein::bench_ranks::position", nodes)),
+        velocity("skein::bench_ranks::velocity", nodes.size()),
+        blob("skein::bench_ranks::blob", nodes.size()) {
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    std::vector<Vec3> forces(nodes.size());
+    for (Vec3& f : forces) f = {uniform(random), uniform(random), uniform(random)};
+    force = to_device("skein::bench_ranks::force", forces);
+    Kokkos::deep_copy(blob, blob_size);
+  }
+};
+
+/// Times sums outside of steps, each with a tree of its own; in steps trees serve several.
+void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const int repeats) {
+  const Sources sources{problem.position, problem.force, problem.blob};
+  const auto sum = [&] {
+    mobility.add_velocity(sources, problem.position, problem.velocity);
+    Kokkos::fence();
+  };
+  sum();
+  const std::vector<double> work_before = team != nullptr ? team->work_seconds() : std::vector<double>{0.0};
+  const RankTraffic before = team != nullptr ? team->ranks().traffic() : RankTraffic{};
+  std::vector<double> seconds;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+    sum();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  const RankTraffic after = team != nullptr ? team->ranks().traffic() : RankTraffic{};
+  const std::vector<double> work = team != nullptr ? team->work_seconds() : std::vector<double>{0.0};
+  double busiest = 0.0;
+  for (std::size_t r = 0; r < work.size(); ++r) busiest = std::max(busiest, (work[r] - work_before[r]) / repeats);
+  std::sort(seconds.begin(), seconds.end());
+  const auto* fmm = dynamic_cast<const FmmMobility*>(&mobility);
+  const FmmStatistics statistics = fmm != nullptr ? fmm->statistics() : FmmStatistics{};
+  std::printf("%s,%d,%d,%d,%.5g,%.5g,%.5g,%.5g,%.4g,%.4g,%.4g,%.3g,%.4g,%.4g,%.4g,%.4g,%.4g,%d\n", problem.name.c_str(),
+              team != nullptr ? team->ranks().size() : 0, HostSpace().concurrency(), problem.position.extent_int(0),
+              seconds.front(), seconds[seconds.size() / 2], busiest,
+              (after.wait_seconds - before.wait_seconds) / repeats,
+              (after.broadcast_bytes - before.broadcast_bytes) / repeats,
+              (after.exchanged_bytes - before.exchanged_bytes) / repeats,
+              (after.gathered_bytes - before.gathered_bytes) / repeats, (after.messages - before.messages) / repeats,
+              statistics.tree_seconds, statistics.sort_seconds, statistics.far_seconds, statistics.leaf_seconds,
+              statistics.memory_bytes / problem.position.extent(0), statistics.n_boxes);
+  std::fflush(stdout);
+}
+
+void measure_fmm(const Problem& problem, SumTeam* team, const int repeats) {
+  FmmOptions options;
+  options.tolerance = 1e-4;
+  FmmMobility mobility(viscosity, options, team);
+  measure(problem, mobility, team, repeats);
+}
+
+void run(const std::vector<std::string>& parts, SumTeam* team) {
+  const auto asked = [&](const std::string& part) {
+    return std::find(parts.begin(), parts.end(), part) != parts.end();
+  };
+  const bool tiny = asked("tiny");
+  int n_cube = tiny ? 2000 : 1000000;
+  for (const std::string& part : parts)
+    if (part.rfind("only=", 0) == 0) n_cube = std::stoi(part.substr(5));
+  perf::print_context();
+  std::printf(
+      "sum,ranks,threads,nodes,fastest_s,median_s,busiest_work_s,rank0_waits_s,broadcast_B,exchanged_B,gathered_B,"
+      "messages,"
+      "tree_s,sort_s,far_s,leaf_s,bytes_per_node,boxes\n");
+  const int n_fiber = tiny ? 3600 : 23634;
+  if (tiny || asked("direct")) {
+    const Problem problem("direct", perf::make_straight(n_fiber), perf::fiber_blob);
+    DirectMobility mobility(viscosity, Precision::in_double, KernelPath::automatic, team);
+    measure(problem, mobility, team, tiny ? 1 : 5);
+  }
+  if (tiny || asked("fiber")) {
+    const Problem problem("fiber", perf::make_straight(n_fiber), perf::fiber_blob);
+    measure_fmm(problem, team, tiny ? 1 : 60);
+  }
+  if (tiny || asked("cube")) {
+    const Problem problem("cube", perf::make_uniform(n_cube), 0.1 / std::cbrt(n_cube));
+    measure_fmm(problem, team, tiny ? 1 : std::clamp(4000000 / n_cube, 3, 40));
+  }
+}
+
+int run_on_ranks(const std::vector<std::string>& parts) {
+  Communicator* const ranks = join_ranks();
+  const Runtime runtime;
+  if (ranks != nullptr && ranks->rank() > 0) return serve_sums(*ranks);
+  if (ranks == nullptr) {
+    run(parts, nullptr);
+    return 0;
+  }
+  {
+    SumTeam team(*ranks);
+    run(parts, &team);
+  }
+  dismiss_ranks(*ranks, 0);
+  return 0;
+}
+
+}  // namespace
+}  // namespace skein
+
+int main(int argc, char** argv) {
+  return skein::leave_ranks(skein::run_on_ranks(std::vector<std::string>(argv + 1, argv + argc)));
+}
