@@ -36,22 +36,37 @@ void FmmEvaluator::sort_nodes(const double scale) {
   resize(sorted_.position, n_sources, "skein::fmm_evaluator::sorted_position");
   resize(sorted_.force, n_sources, "skein::fmm_evaluator::sorted_force");
   if (sorted_.blob.extent_int(0) != n_sources)
-    sorted_.blob = HostScalars("skein::fmm_evaluator::sorted_blob", n_sources);
+    sorted_.blob = HostScalars(
+        Kokkos::view_alloc(std::string("skein::fmm_evaluator::sorted_blob"), Kokkos::WithoutInitializing), n_sources);
   if (same)
     sorted_.target = sorted_.position;
   else if (sorted_.target.data() == sorted_.position.data() || sorted_.target.extent_int(0) != n_targets)
-    sorted_.target = HostVectors("skein::fmm_evaluator::sorted_target", n_targets);
+    sorted_.target = HostVectors(
+        Kokkos::view_alloc(std::string("skein::fmm_evaluator::sorted_target"), Kokkos::WithoutInitializing), n_targets);
   const auto sorted = sorted_;
   const auto source_order = tree_.source_order(), target_order = tree_.target_order();
-  Kokkos::parallel_for("skein::sort_sources", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sources),
-                       [=](const int i) {
-                         const int from = source_order(i);
-                         store(sorted.position, i, load(nodes.position, from));
-                         store(sorted.force, i, scale * load(nodes.force, from));
-                         sorted.blob(i) = nodes.blob(from);
-                       });
+  const auto sort_source = [=](const int i) {
+    const int from = source_order(i);
+    store(sorted.position, i, load(nodes.position, from));
+    store(sorted.force, i, scale * load(nodes.force, from));
+    sorted.blob(i) = nodes.blob(from);
+  };
+  if (ranks_ == nullptr) {
+    Kokkos::parallel_for("skein::sort_sources", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_sources), sort_source);
+  } else {
+    // The memory of other places is never touched, so that the system does not give it.
+    const std::vector<IndexRange>& runs = shares_.source_runs;
+    Kokkos::parallel_for("skein::sort_sources",
+                         Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, static_cast<int>(runs.size())),
+                         [&](const int r) {
+                           const IndexRange run = runs[static_cast<std::size_t>(r)];
+                           for (int i = run.first; i < run.first + run.count; ++i) sort_source(i);
+                         });
+  }
+  const IndexRange targets = ranks_ == nullptr ? IndexRange{0, n_targets} : shares_.own_targets();
   if (!same)
-    Kokkos::parallel_for("skein::sort_targets", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_targets),
+    Kokkos::parallel_for("skein::sort_targets",
+                         Kokkos::RangePolicy<HostSpace>(HostSpace(), targets.first, targets.first + targets.count),
                          [=](const int i) { store(sorted.target, i, load(nodes.target, target_order(i))); });
 }
 
@@ -114,13 +129,15 @@ void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, Operat
   const auto levels = store.require(options.far_field, plan, blobs_.largest, tree_);
   statistics.operators_seconds = watch.lap();
   with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, coefficients); });
-  statistics.memory_bytes = store.bytes() + 2.0 * sizeof(Real) * static_cast<double>(coefficients.source.size()) +
-                            node_bytes() + tree_.bytes();
+  double n_coefficients = 2.0 * static_cast<double>(coefficients.source.size());
+  if (ranks_ != nullptr) n_coefficients = shares_.n_boxes * coefficients.box_size;
+  statistics.memory_bytes = store.bytes() + sizeof(Real) * n_coefficients + node_bytes() + tree_.bytes();
 }
 
 void FmmEvaluator::require_tree(const OctreeRules& rules) {
   if (keeping_.may_serve(rules) && tree_.still_fits(nodes_.position, nodes_.target)) return;
   tree_.build(nodes_.position, nodes_.target, rules);
+  if (ranks_ != nullptr) tree_.drop_keys();
   keeping_.note_new_tree(rules);
   ++statistics.n_trees;
   tasks_ = make_target_tasks(tree_);
@@ -150,9 +167,13 @@ void FmmEvaluator::count_work() {
 
 double FmmEvaluator::node_bytes() const {
   const bool same = sorted_.target.data() == sorted_.position.data();
+  const double of_near =
+      8.0 * static_cast<double>(near_velocity_.size()) + near_tiles_.bytes() + single_near_tiles_.bytes();
+  if (ranks_ != nullptr)
+    return 56.0 * shares_.n_looked_at() + (same ? 0.0 : 24.0 * shares_.own_targets().count) + of_near;
   return 8.0 * static_cast<double>(sorted_.position.size() + sorted_.force.size() + sorted_.blob.size() +
-                                   (same ? 0 : sorted_.target.size()) + near_velocity_.size()) +
-         near_tiles_.bytes() + single_near_tiles_.bytes();
+                                   (same ? 0 : sorted_.target.size())) +
+         of_near;
 }
 
 bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {

@@ -30,13 +30,9 @@ NearMatches make_near_matches(const Octree& tree, const RankShares* shares) {
   NearMatches near;
   const int n_leaves = static_cast<int>(tree.target_leaves().size());
   std::vector<int> first_tile;
-  near.packed_first.push_back(0);
   for (const int leaf : tree.target_leaves()) {
     first_tile.push_back(static_cast<int>(near.tiles.size()));
-    near.leaf_first.push_back(near.n_packed());
     cut_leaf(tree.boxes()[static_cast<std::size_t>(leaf)].sources, near.tiles);
-    for (auto tile = static_cast<std::size_t>(first_tile.back()); tile < near.tiles.size(); ++tile)
-      near.packed_first.push_back(near.n_packed() + math::ceil_div(near.tiles[tile].count, tile_step) * tile_step);
   }
   first_tile.push_back(static_cast<int>(near.tiles.size()));
   const auto tiles_of = [&](const int leaf) {
@@ -62,8 +58,14 @@ NearMatches make_near_matches(const Octree& tree, const RankShares* shares) {
   std::vector<char> is_met(near.tiles.size());
   for (const Match& match : near.matches)
     is_met[static_cast<std::size_t>(match.one)] = is_met[static_cast<std::size_t>(match.other)] = 1;
-  for (std::size_t tile = 0; tile < is_met.size(); ++tile)
+  near.packed_first.push_back(0);
+  for (std::size_t tile = 0; tile < is_met.size(); ++tile) {
     if (is_met[tile] != 0) near.met.push_back(static_cast<int>(tile));
+    const int n_places = math::ceil_div(near.tiles[tile].count, tile_step) * tile_step;
+    near.packed_first.push_back(near.n_packed() + (is_met[tile] != 0 ? n_places : 0));
+  }
+  for (int leaf = 0; leaf < n_leaves; ++leaf)
+    near.leaf_first.push_back(near.packed_first[static_cast<std::size_t>(first_tile[static_cast<std::size_t>(leaf)])]);
   return near;
 }
 

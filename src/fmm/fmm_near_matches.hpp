@@ -11,7 +11,7 @@ namespace skein {
 /// leaves, and the order in which they meet.
 ///
 /// In the packed order, nodes stand as in the tree, with places left free behind the last of each leaf: all tiles begin
-/// at a multiple of tile_step.
+/// at a multiple of tile_step. Tiles that meet nobody have no places.
 struct NearMatches {
   std::vector<IndexRange> tiles;  ///< in the order of the tree
   std::vector<Match> matches;

@@ -1,5 +1,6 @@
 #include "fmm/near_tiles.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -87,10 +88,16 @@ void NearTiles<Real>::compute(const SortedNodes& nodes, const NearMatches& near,
         Kokkos::view_alloc(std::string("skein::near_tiles::numbers"), Kokkos::WithoutInitializing),
         6 * near.n_packed());
   origin_.resize(near.tiles.size());
-  Kokkos::deep_copy(velocity, 0.0);
   Kokkos::parallel_for("skein::load_near_tiles",
                        Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, static_cast<int>(near.met.size())),
-                       [&](const int i) { load(nodes, near, near.met[static_cast<std::size_t>(i)]); });
+                       [&](const int i) {
+                         const int tile = near.met[static_cast<std::size_t>(i)];
+                         load(nodes, near, tile);
+                         const int first = near.packed_first[static_cast<std::size_t>(tile)];
+                         const int n = near.packed_first[static_cast<std::size_t>(tile) + 1] - first;
+                         for (int c = 0; c < 3; ++c)
+                           std::fill_n(&velocity(static_cast<std::ptrdiff_t>(c) * near.n_packed() + first), n, 0.0);
+                       });
   const Real blob_squared = static_cast<Real>(nodes.blob(0) * nodes.blob(0));
   const auto place_of = [&](const int tile, VelocityPlace& place) {
     for (int c = 0; c < 3; ++c)

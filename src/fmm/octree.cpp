@@ -7,6 +7,7 @@
 #include "kernels/node_checks.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -46,12 +47,15 @@ double Octree::bytes() const {
   const auto of_list = [](const auto& list) {
     return static_cast<double>(list.entries.capacity() * sizeof(list.entries[0]) + list.first.capacity() * sizeof(int));
   };
-  const double n_nodes = static_cast<double>(source_order_.size()) +
-                         (same_nodes_ ? 0.0 : static_cast<double>(target_order_.size())) +
-                         static_cast<double>(spare_order_.size());
-  return 12.0 * n_nodes + static_cast<double>(boxes_.capacity() * sizeof(Box)) + of_list(touching_) + of_list(near_) +
-         of_list(one_way_) + of_list(partners_) + of_list(fine_) + of_list(coarse_) + of_list(x_direct_) +
-         of_list(far_);
+  const double n_places = static_cast<double>(source_order_.size()) +
+                          (same_nodes_ ? 0.0 : static_cast<double>(target_order_.size())) +
+                          static_cast<double>(spare_order_.size());
+  const double n_keys = static_cast<double>(source_key_.size()) +
+                        (same_nodes_ ? 0.0 : static_cast<double>(target_key_.size())) +
+                        static_cast<double>(spare_key_.size());
+  return 4.0 * n_places + 8.0 * n_keys + static_cast<double>(boxes_.capacity() * sizeof(Box)) + of_list(touching_) +
+         of_list(near_) + of_list(one_way_) + of_list(partners_) + of_list(fine_) + of_list(coarse_) +
+         of_list(x_direct_) + of_list(far_);
 }
 
 void Octree::choose_cube(const Nodes& source, const Nodes& target, const OctreeRules& rules) {
@@ -71,7 +75,7 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
   const auto sort = [&](const Nodes& nodes, Kokkos::View<int*, HostSpace>& order,
                         Kokkos::View<std::uint64_t*, HostSpace>& key) {
     const int n = nodes.extent_int(0);
-    if (order.extent_int(0) != n) {
+    if (order.extent_int(0) != n || key.extent_int(0) != n) {
       order = Kokkos::View<int*, HostSpace>("skein::octree::order", n);
       key = Kokkos::View<std::uint64_t*, HostSpace>("skein::octree::key", n);
     }
@@ -101,6 +105,27 @@ void Octree::build(const Nodes& source, const Nodes& target, const OctreeRules& 
   }
   split_boxes();
   build_lists(rules);
+}
+
+void Octree::drop_keys() {
+  source_key_ = {};
+  target_key_ = {};
+  spare_key_ = {};
+  spare_order_ = {};
+}
+
+void Octree::drop_far_pairs_but(const std::vector<IndexRange>& boxes_of_level) {
+  ListOfLists<FarPair> kept;
+  kept.clear();
+  for (int b = 0; b < static_cast<int>(boxes_.size()); ++b) {
+    const IndexRange boxes = boxes_of_level[static_cast<std::size_t>(box(b).level)];
+    if (b >= boxes.first && b < boxes.first + boxes.count)
+      kept.entries.insert(kept.entries.end(), far_.begin(b), far_.end(b));
+    kept.end_list();
+  }
+  kept.entries.shrink_to_fit();
+  far_ = std::move(kept);
+  touching_ = {};
 }
 
 bool Octree::still_fits(const Nodes& source, const Nodes& target) const {

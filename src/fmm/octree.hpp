@@ -35,6 +35,12 @@ class Octree {
   void build(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target,
              const OctreeRules& rules);
 
+  /// Gives back the memory that only building needs.
+  void drop_keys();
+
+  /// Gives back the V lists of all boxes but those of each level. @param boxes_of_level  [n_levels]
+  void drop_far_pairs_but(const std::vector<IndexRange>& boxes_of_level);
+
   /// True where the tree that was built last holds these nodes, moved since then by little enough: see nodes_fit.
   bool still_fits(const ConstVectorView<HostSpace>& source, const ConstVectorView<HostSpace>& target) const;
 

@@ -12,6 +12,7 @@ void FmmEvaluator::require_shares(const FmmPlan& plan) {
   if (has_shares_) return;
   shares_ = share_tree(tree_, plan, is_symmetric_, ranks_->rank(), ranks_->size());
   has_shares_ = true;
+  tree_.drop_far_pairs_but(shares_.target_boxes);
   const auto is_foreign = [&](const TargetTask& task) { return !shares_.has_target(task.targets.first); };
   tasks_.erase(std::remove_if(tasks_.begin(), tasks_.end(), is_foreign), tasks_.end());
 }

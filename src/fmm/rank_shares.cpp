@@ -134,6 +134,28 @@ class Needs {
   std::vector<std::vector<char>> needed_;
 };
 
+/// Sources of this rank, and all that its targets meet one by one.
+std::vector<IndexRange> find_source_runs(const Octree& tree, const RankShares& shares) {
+  constexpr int piece = 4096;
+  std::vector<IndexRange> runs = {{0, math::smaller(1, tree.source_order().extent_int(0))}, shares.own_sources()};
+  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf)
+    if (shares.has_target(tree.box(tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets.first))
+      runs.insert(runs.end(), tree.u_list().begin(leaf), tree.u_list().end(leaf));
+  for (const IndexRange& boxes : shares.target_boxes)
+    for (int b = boxes.first; b < boxes.first + boxes.count; ++b)
+      for (const int* coarse = tree.x_list().begin(b); coarse != tree.x_list().end(b); ++coarse)
+        runs.push_back(tree.box(*coarse).sources);
+  std::sort(runs.begin(), runs.end(), [](const IndexRange a, const IndexRange b) { return a.first < b.first; });
+  std::vector<IndexRange> pieces;
+  int next = 0;
+  for (const IndexRange& run : runs) {
+    const int last = run.first + run.count;
+    for (next = math::larger(next, run.first); next < last; next += pieces.back().count)
+      pieces.push_back({next, math::smaller(piece, last - next)});
+  }
+  return pieces;
+}
+
 }  // namespace
 
 RankShares share_tree(const Octree& tree, const FmmPlan& plan, const bool is_symmetric, const int rank,
@@ -172,6 +194,11 @@ RankShares share_tree(const Octree& tree, const FmmPlan& plan, const bool is_sym
     for (const int* fine = tree.w_list().begin(leaf); fine != tree.w_list().end(leaf); ++fine) needs.note(box, *fine);
   }
   needs.list(shares);
+  shares.source_runs = find_source_runs(tree, shares);
+  shares.n_boxes = static_cast<double>(shares.boxes_of_all.size());
+  for (const IndexRange& boxes : shares.source_boxes) shares.n_boxes += boxes.count;
+  for (const std::vector<int>& boxes : shares.received) shares.n_boxes += static_cast<double>(boxes.size());
+  for (const IndexRange& boxes : shares.target_boxes) shares.n_boxes += boxes.count;
   return shares;
 }
 

@@ -20,10 +20,17 @@ struct RankShares {
   std::vector<IndexRange> target_boxes;          ///< with targets of this rank, per level
   std::vector<int> boxes_of_all;                 ///< whose sources are several ranks', fine ones first
   std::vector<std::vector<int>> sent, received;  ///< [n_ranks]: boxes whose coefficients go to or come from a rank
+  std::vector<IndexRange> source_runs;           ///< places whose sources this rank looks at, in pieces for a thread
+  double n_boxes = 0.0;                          ///< whose coefficients it has, of sources and for targets
   double balance = 1.0;                          ///< the largest work of a rank over the mean
 
   IndexRange own_targets() const { return range(first_target); }
   IndexRange own_sources() const { return range(first_source); }
+  double n_looked_at() const {
+    double sum = 0.0;
+    for (const IndexRange& run : source_runs) sum += run.count;
+    return sum;
+  }
   bool has_target(const int place) const {
     const IndexRange own = own_targets();
     return place >= own.first && place < own.first + own.count;
