@@ -66,7 +66,7 @@ RunControl::Demand RunControl::look(const double step_seconds) {
 
 void RunControl::check_within_step() {
   if (stop_is_asked() &&
-      (signals_.count() > 1 || std::chrono::duration<double>(Clock::now() - asked_at_).count() > patience))
+      (signals_.count() > 1 || std::chrono::duration<double>(Clock::now() - asked_at_).count() > patience_))
     throw Interruption();
   if (seconds_left() > 0.0) return;
   if (reason_.empty()) reason_ = "its wall time is used up";

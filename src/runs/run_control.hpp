@@ -41,6 +41,9 @@ class RunControl {
   void check_within_step();
   static constexpr double patience = 3.0;  ///< seconds
 
+  /// For a program whose launcher kills it soon after it has passed a signal on. @param seconds  in place of `patience`
+  void set_patience(const double seconds) { patience_ = seconds; }
+
   /// True if the run has to end in time, with a checkpoint.
   bool has_walltime() const { return std::isfinite(max_walltime_); }
 
@@ -61,6 +64,7 @@ class RunControl {
   StopSignals signals_;
   double max_walltime_;
   double slowest_checkpoint_ = 0.1;
+  double patience_ = patience;
   std::filesystem::path stop_file_, output_file_;
   bool checkpoint_is_asked_ = false;
   Clock::time_point next_look_{}, asked_at_{};

@@ -11,11 +11,20 @@
 #include <optional>
 
 namespace skein {
+namespace {
+
+/// Open MPI's mpirun kills what is left a second after it has passed SIGTERM on, unless it is told another time.
+constexpr double patience_of_launchers = 0.3;  // seconds
+
+}  // namespace
 
 ExitCode simulate(const SceneConfig& scene, const RunFolder& folder, const Checkpoint* checkpoint, RunControl& control,
                   RunListener& listener, const std::string& first_words, Communicator* ranks) {
   std::optional<SumTeam> team;
-  if (ranks != nullptr) team.emplace(*ranks);
+  if (ranks != nullptr) {
+    team.emplace(*ranks);
+    control.set_patience(patience_of_launchers);
+  }
   Simulation simulation(scene, folder, checkpoint, control, listener, read_fault_hooks(), team ? &*team : nullptr);
   if (!first_words.empty()) simulation.say(first_words);
   simulation.introduce();

@@ -70,6 +70,15 @@ TEST(RunControl, ALongStepIsGivenUpAfterSomePatience) {
   EXPECT_LT(waited.count(), 10.0);
 }
 
+TEST(RunControl, ALauncherMayLeaveLessPatience) {
+  RunControl control(no_limit);
+  control.set_patience(0.1);
+  std::raise(SIGTERM);
+  EXPECT_NO_THROW(control.check_within_step());
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  EXPECT_THROW(control.check_within_step(), Interruption);
+}
+
 TEST(RunControl, FilesAreSeenWithinAFifthOfASecond) {
   const ScratchFolder scratch;
   const RunFolder folder = RunFolder::create(scratch.path() / "run", "", false);
