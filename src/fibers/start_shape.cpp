@@ -1,5 +1,6 @@
 #include <skein/core/counter_random.hpp>
 #include <skein/core/error.hpp>
+#include <skein/fibers/helix.hpp>
 #include <skein/fibers/start_shape.hpp>
 
 #include <fmt/format.h>
@@ -155,14 +156,16 @@ FiberAxes make_fiber_axes(const Vec3 direction, const double roll_degrees) {
 }
 
 std::vector<SectionPose> make_section_poses(const Fiber& fiber, const std::uint64_t seed) {
+  if (fiber.config.is_helix()) return make_helix(fiber);
   const auto bends = list_bends(fiber, seed);
   return bends.empty() ? make_straight(fiber) : make_bent(fiber, bends);
 }
 
 double bound_start_deflection(const Fiber& fiber) {
   // Twice: the middle of the sections stays where it is, not the ends.
-  return 2.0 * fiber.length() *
-         (fiber.config.start_amplitude + std::numbers::sqrt2 * n_noise_modes * fiber.config.start_noise);
+  return fiber.config.helix_radius +
+         2.0 * fiber.length() *
+             (fiber.config.start_amplitude + std::numbers::sqrt2 * n_noise_modes * fiber.config.start_noise);
 }
 
 }  // namespace skein

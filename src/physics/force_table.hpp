@@ -21,6 +21,7 @@ void append_gravity(const SceneConfig& scene, const std::vector<Fiber>& fibers, 
 void append_tethers(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_torques(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_undulations(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
+void append_clamps(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 
 /// The forces of a scene in the order of the table.
 ForceList make_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers);

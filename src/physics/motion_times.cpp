@@ -47,6 +47,17 @@ double find_torque_time(const std::vector<TorqueConfig>& torques, const std::vec
   return time;
 }
 
+double find_clamp_time(const std::vector<ClampConfig>& clamps, const std::vector<Fiber>& fibers) {
+  double time = infinity;
+  for (const ClampConfig& clamp : clamps) {
+    const double frequency = std::abs(clamp.angular_frequency), speed = frequency * norm(clamp.swing);
+    if (speed > 0.0) time = std::min(time, fibers[clamp.fiber].length() / speed);
+    const double turn = std::max(norm(clamp.tilt) > 0.0 ? frequency : 0.0, std::abs(clamp.spin));
+    if (turn > 0.0) time = std::min(time, 2.0 * std::numbers::pi / turn);
+  }
+  return time;
+}
+
 double find_undulation_time(const std::vector<UndulationConfig>& undulations) {
   double time = infinity;
   for (const UndulationConfig& wave : undulations)

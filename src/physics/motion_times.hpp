@@ -18,6 +18,9 @@ double find_tether_time(const std::vector<TetherConfig>& tethers, const std::vec
 
 double find_torque_time(const std::vector<TorqueConfig>& torques, const std::vector<Fiber>& fibers, double viscosity);
 
+/// Of clamps whose frames move: a period, where they tilt or spin.
+double find_clamp_time(const std::vector<ClampConfig>& clamps, const std::vector<Fiber>& fibers);
+
 /// Of waves that travel or beat: a period.
 double find_undulation_time(const std::vector<UndulationConfig>& undulations);
 

@@ -61,7 +61,7 @@ double find_time_scale(const SceneConfig& scene) {
   const double scale =
       std::min({summarize_flow(scene.flows).time_scale, find_tether_time(scene.tethers, fibers),
                 find_torque_time(scene.torques, fibers, viscosity), find_undulation_time(scene.undulations),
-                find_falling_time(scene.gravity.weight, fibers, viscosity)});
+                find_clamp_time(scene.clamps, fibers), find_falling_time(scene.gravity.weight, fibers, viscosity)});
   return std::isfinite(scale) ? scale : find_relaxation_time(fibers, viscosity);
 }
 

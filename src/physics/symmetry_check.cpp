@@ -129,7 +129,15 @@ std::string find_gravity_fault(const GravityConfig& gravity, const SignMatrix ma
 
 // Which waves map onto each other depends on planes that turn with the fibers.
 std::string find_undulation_fault(const SceneConfig& scene) {
+  const bool has_helix =
+      std::any_of(scene.fibers.begin(), scene.fibers.end(), [](const FiberConfig& fiber) { return fiber.is_helix(); });
+  if (has_helix) return "a fiber is a helix at rest, which symmetry does not know yet: take a straight one";
   return scene.undulations.empty() ? "" : "fibers undulate, which symmetry does not know yet: leave it out";
+}
+
+// Frames hold nodes one by one, whose images a roll may put anywhere.
+std::string find_clamp_fault(const SceneConfig& scene) {
+  return scene.clamps.empty() ? "" : "clamps hold sections, which symmetry does not know yet: take [[tether]]s";
 }
 
 /// Nodes of the start, and how far they reach from the origin.
@@ -146,7 +154,7 @@ std::string find_fault(const SceneConfig& scene, const Start& start, const SignM
   for (const std::string& fault :
        {find_flow_fault(scene.flows, matrix, start.reach), find_gravity_fault(scene.gravity, matrix),
         find_tether_fault(scene, start.fibers, map, matrix, start.reach),
-        find_torque_fault(scene, start.fibers, map, matrix), find_undulation_fault(scene)})
+        find_torque_fault(scene, start.fibers, map, matrix), find_undulation_fault(scene), find_clamp_fault(scene)})
     if (!fault.empty()) return fault;
   return {};
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -77,14 +78,19 @@ struct WavePower {
   }
 };
 
-/// Waves of preferred curvature, as changes of the lengths at rest of the springs between sections: what they add to
-/// the forces of these springs.
+std::ptrdiff_t count_helices(const std::vector<Fiber>& fibers) {
+  return std::count_if(fibers.begin(), fibers.end(), [](const Fiber& fiber) { return fiber.config.is_helix(); });
+}
+
+/// Waves of preferred curvature, and rest shapes that are helices, as changes of the lengths at rest of the springs
+/// between sections: what they add to the forces of these springs.
 class Undulations final : public Force {
  public:
   Undulations(const std::vector<UndulationConfig>& configs, const std::vector<Fiber>& fibers)
       : configs_(configs),
         waves_(make_wave_arrays(configs, fibers)),
-        sums_("skein::Undulations::sums", fibers, waves_.fiber_of_node.extent(0)) {}
+        sums_("skein::Undulations::sums", fibers, waves_.fiber_of_node.extent(0)),
+        n_helices_(count_helices(fibers)) {}
 
   ForcePromises promises() const override {
     bool is_steady = true;
@@ -131,7 +137,11 @@ class Undulations final : public Force {
   }
 
   std::string describe() const override {
-    return fmt::format("{} wave{} of preferred curvature", configs_.size(), configs_.size() == 1 ? "" : "s");
+    const std::string waves =
+        fmt::format("{} wave{} of preferred curvature", configs_.size(), configs_.size() == 1 ? "" : "s");
+    if (n_helices_ == 0) return waves;
+    const std::string helices = fmt::format("{} helix{} at rest", n_helices_, n_helices_ == 1 ? "" : "es");
+    return configs_.empty() ? helices : helices + ", " + waves;
   }
 
  private:
@@ -146,12 +156,14 @@ class Undulations final : public Force {
   std::vector<UndulationConfig> configs_;
   WaveArrays waves_;
   NodeSums sums_;
+  std::ptrdiff_t n_helices_;
 };
 
 }  // namespace
 
 void append_undulations(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
-  if (!scene.undulations.empty()) forces.push_back(std::make_unique<Undulations>(scene.undulations, fibers));
+  if (!scene.undulations.empty() || count_helices(fibers) > 0)
+    forces.push_back(std::make_unique<Undulations>(scene.undulations, fibers));
 }
 
 }  // namespace skein

@@ -1,5 +1,6 @@
 #include "wave_springs.hpp"
 
+#include <skein/fibers/helix.hpp>
 #include <skein/fibers/spring_network.hpp>
 #include <skein/scene/profile.hpp>
 
@@ -40,9 +41,9 @@ void append_fiber(const Fiber& fiber, const std::vector<UndulationConfig>& undul
   const int index = static_cast<int>(lists.fiber.size()), first_wave = static_cast<int>(lists.wave.size());
   for (const UndulationConfig& undulation : undulations)
     if (undulation.fiber == fiber.index) append_wave(undulation, fiber, lists);
-  const bool has_waves = static_cast<int>(lists.wave.size()) > first_wave;
-  lists.fiber_of_node.insert(lists.fiber_of_node.end(), fiber.n_nodes(), has_waves ? index : -1);
-  if (!has_waves) return;
+  const bool is_straight = static_cast<int>(lists.wave.size()) == first_wave && !fiber.config.is_helix();
+  lists.fiber_of_node.insert(lists.fiber_of_node.end(), fiber.n_nodes(), is_straight ? -1 : index);
+  if (is_straight) return;
   lists.fiber.push_back({.first_node = fiber.first_node,
                          .n_sections = network.n_sections,
                          .nodes_per_section = stencil.nodes_per_section,
@@ -54,11 +55,19 @@ void append_fiber(const Fiber& fiber, const std::vector<UndulationConfig>& undul
                          .end_wave = static_cast<int>(lists.wave.size()),
                          .first_place = static_cast<int>(lists.place.size()),
                          .spacing = fiber.spacing()});
+  const std::vector<SectionPose> rest = fiber.config.is_helix() ? make_helix(fiber) : std::vector<SectionPose>{};
   for (int section = 0; section < network.n_sections; ++section) {
     lists.section_factor.push_back(network.factor(section, 0));
     // Gaps beyond the end are there, so that all sections have as many, and have no length.
-    for (int offset = 1; offset <= stencil.reach; ++offset)
-      lists.gap.push_back({index, section, section + offset < network.n_sections ? offset : 0});
+    for (int offset = 1; offset <= stencil.reach; ++offset) {
+      Gap gap{index, section, section + offset < network.n_sections ? offset : 0, 0.0, 0.0};
+      if (fiber.config.is_helix() && gap.offset > 0) {
+        const RestBend bend = measure_rest_bend(rest[section], rest[section + offset], offset * fiber.spacing());
+        gap.rest_first = bend.towards_0;
+        gap.rest_across = bend.towards_90;
+      }
+      lists.gap.push_back(gap);
+    }
   }
   for (int node = 0; node < stencil.nodes_per_section; ++node) {
     const double angle = 2.0 * std::numbers::pi * node / stencil.nodes_per_section;

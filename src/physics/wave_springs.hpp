@@ -21,7 +21,7 @@ struct Curvature {
   double first = 0.0, across = 0.0, first_rate = 0.0, across_rate = 0.0;
 };
 
-/// A fiber with waves, and the springs between its sections.
+/// A fiber with waves, or a rest shape that is not straight, and the springs between its sections.
 struct WavingFiber {
   int first_node, n_sections, nodes_per_section, reach;
   int first_entry;    ///< of its stencil
@@ -35,6 +35,7 @@ struct WavingFiber {
 /// Sections of a fiber between which springs lie.
 struct Gap {
   int fiber, section, offset;
+  double rest_first, rest_across;  ///< curvature of the fiber's rest shape
 };
 
 struct WaveArrays {
@@ -48,7 +49,7 @@ struct WaveArrays {
   ConstScalars stiffness, rest_length;  ///< [n_entries], force and length
 };
 
-/// @param undulations  of the scene  @param fibers  of all waves, and those without
+/// @param undulations  of the scene  @param fibers  of all waves, and others
 WaveArrays make_wave_arrays(const std::vector<UndulationConfig>& undulations, const std::vector<Fiber>& fibers);
 
 /// What a spring between sections has become: the inverse of its length at rest less what it is without waves, that
@@ -61,7 +62,7 @@ struct RestChange {
 KOKKOS_INLINE_FUNCTION Curvature sum_waves(const WaveArrays& waves, const Gap& gap, const double time) {
   const WavingFiber& fiber = waves.fiber(gap.fiber);
   const double place = (gap.section + 0.5 * gap.offset) * fiber.spacing;
-  Curvature sum;
+  Curvature sum{gap.rest_first, gap.rest_across};
   for (int w = fiber.first_wave; w < fiber.end_wave; ++w) {
     const Wave& wave = waves.wave(w);
     const double angle = wave.wave_number * place - wave.angular_frequency * time + wave.phase;

@@ -20,8 +20,8 @@ bool lies_along_x(const FiberConfig& fiber) {
   constexpr double least_cosine = 0.999;
   // A bend or noise of this size changes when a fiber turns by a per cent of its half period.
   constexpr double most_bent = 1e-3;
-  return std::abs(fiber.direction.x) >= least_cosine * norm(fiber.direction) && fiber.start_amplitude <= most_bent &&
-         fiber.start_noise <= most_bent;
+  return std::abs(fiber.direction.x) >= least_cosine * norm(fiber.direction) && !fiber.is_helix() &&
+         fiber.start_amplitude <= most_bent && fiber.start_noise <= most_bent;
 }
 
 bool is_uniform(const FiberConfig& fiber) {
@@ -34,7 +34,7 @@ bool is_uniform(const FiberConfig& fiber) {
 
 bool is_single_fiber(const SceneConfig& scene) {
   return scene.fibers.size() == 1 && scene.gravity.weight == 0.0 && scene.tethers.empty() && scene.torques.empty() &&
-         scene.undulations.empty() && scene.start.checksum.empty();
+         scene.undulations.empty() && scene.clamps.empty() && scene.start.checksum.empty();
 }
 
 std::optional<FiberInShear> find_fiber_in_shear(const SceneConfig& scene) {

@@ -44,6 +44,35 @@ void check_rigid(const FiberConfig& fiber, const std::string& path, const SceneR
                            fiber.stands_for_tube() ? "set chain_nodes" : "take fewer"));
 }
 
+/// What a helix cannot be asked for.
+void check_helix(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
+                 std::vector<Problem>& problems) {
+  if (!fiber.is_helix()) return;
+  const auto reject = [&](const char* key, const std::string& why) {
+    reader.add(problems, path + "." + key, fmt::format("{}.{} {}", path, key, why));
+  };
+  if (fiber.is_line())
+    reject("helix_radius", fmt::format("{}: chains and rigid fibers are straight at rest; take a tube",
+                                       format_number(fiber.helix_radius)));
+  constexpr double shortest_pitch = 6.0;  // radii, of neighbouring turns that do not touch, with some play
+  if (!(std::abs(fiber.helix_pitch) >= shortest_pitch * fiber.radius))
+    reject("helix_pitch",
+           fmt::format("{}: a turn takes {:g} radii along the axis at least, {}", format_number(fiber.helix_pitch),
+                       shortest_pitch, format_number(shortest_pitch * fiber.radius)));
+  if (fiber.start_amplitude > 0.0 || fiber.start_noise > 0.0)
+    reject(fiber.start_amplitude > 0.0 ? "start_amplitude" : "start_noise",
+           "bends a straight fiber; a helix starts as it is at rest");
+  const double wave_number = 6.283185307179586 / fiber.helix_pitch;
+  const double bent = fiber.radius * fiber.helix_radius * wave_number * wave_number /
+                      (1.0 + fiber.helix_radius * fiber.helix_radius * wave_number * wave_number);
+  constexpr double most_bent = 0.3;
+  if (bent > most_bent)
+    reject("helix_radius",
+           fmt::format("{}: with this pitch it bends the tube to a curvature of {:.3g} / radius, and {} "
+                       "is the most",
+                       format_number(fiber.helix_radius), bent, most_bent));
+}
+
 /// What a line and a tube cannot both be asked for.
 void check_model(const FiberConfig& fiber, const std::string& path, const SceneReader& reader,
                  std::vector<Problem>& problems) {
@@ -72,6 +101,7 @@ void check_model(const FiberConfig& fiber, const std::string& path, const SceneR
   keep_bare("bending_rigidity", fiber.bending_rigidity);
   keep_bare("shear_couple", fiber.shear_couple);
   keep_bare("end_couple", fiber.end_couple);
+  check_helix(fiber, path, reader, problems);
   if (fiber.is_rigid()) check_rigid(fiber, path, reader, problems);
   if (fiber.chain_nodes == 0) return;
   if (!fiber.stands_for_tube())

@@ -79,17 +79,28 @@ void check_loads(const std::string& table, const std::vector<Load>& loads, const
   }
 }
 
-void check_torques(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems) {
-  for (std::size_t i = 0; i < scene.torques.size(); ++i) {
-    const std::string path = reader.path_of("torque", i);
-    const int fiber = scene.torques[i].fiber;
+/// Of what turns sections. @param loads  with a fiber each
+template <class Load>
+void check_turned(const std::string& table, const std::vector<Load>& loads, const SceneConfig& scene,
+                  const SceneReader& reader, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const std::string path = reader.path_of(table, i);
+    const int fiber = loads[i].fiber;
     if (!reader.is_sound(path) || scene.fibers.empty() || fiber >= count_fibers(scene)) continue;
     if (scene.fibers[static_cast<std::size_t>(fiber) % scene.fibers.size()].is_line())
       reader.add(problems, path + ".fiber",
-                 fmt::format("{}.fiber {}: sections of chains and rigid fibers are points, which no torque turns; "
+                 fmt::format("{}.fiber {}: sections of chains and rigid fibers are points, which no {} turns; "
                              "[[tether]]s may pull at "
                              "two of them",
-                             path, fiber));
+                             path, fiber, table));
+  }
+}
+
+void check_clamps(const std::vector<ClampConfig>& clamps, const SceneReader& reader, std::vector<Problem>& problems) {
+  for (std::size_t i = 0; i < clamps.size(); ++i) {
+    const std::string path = reader.path_of("clamp", i);
+    if (reader.is_sound(path) && !(norm(clamps[i].direction) >= smallest_direction))
+      reader.add(problems, path + ".direction", path + ".direction is zero: it points nowhere");
   }
 }
 
@@ -138,7 +149,10 @@ void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vect
   if (!reader.is_sound("placement")) return;
   check_loads("tether", scene.tethers, scene, reader, problems);
   check_loads("torque", scene.torques, scene, reader, problems);
-  check_torques(scene, reader, problems);
+  check_loads("clamp", scene.clamps, scene, reader, problems);
+  check_turned("torque", scene.torques, scene, reader, problems);
+  check_turned("clamp", scene.clamps, scene, reader, problems);
+  check_clamps(scene.clamps, reader, problems);
   check_undulations(scene, reader, problems);
 }
 

@@ -48,6 +48,23 @@ void visit_start_shape(KeyVisitor& visitor, FiberConfig& fiber) {
       fiber.start_noise);
 }
 
+void visit_rest_shape(KeyVisitor& visitor, FiberConfig& fiber) {
+  visitor.number(
+      {"helix_radius", "length", zero_or_more(),
+       "distance of the centreline from the axis of a tube that is a helix at rest, about its direction; 0: it "
+       "is straight at rest. The first section stands where that of the straight fiber would, on the axis"},
+      fiber.helix_radius);
+  visitor.number(
+      {"helix_pitch", "length", any_number(), "along the axis, of a turn; above 0 right-handed, below 0 left-handed"},
+      fiber.helix_pitch);
+  visitor.number(
+      {"helix_taper", "length", zero_or_more(),
+       "the helix widens along the axis as radius (1 - exp(-(x / taper)^2)), x from the shaft on; 0: at once"},
+      fiber.helix_taper);
+  visitor.number({"helix_shaft", "length", zero_or_more(), "of the straight piece on the axis at the first end"},
+                 fiber.helix_shaft);
+}
+
 void visit_springs(KeyVisitor& visitor, FiberConfig& fiber) {
   visitor.profile({"stiffness_profile",
                    "",
@@ -108,6 +125,7 @@ void visit_fiber(KeyVisitor& visitor, FiberConfig& fiber) {
                  fiber.direction);
   visitor.number({"roll", "degrees", between(-360, 360), "rotation of the fiber about its direction"}, fiber.roll);
   visit_start_shape(visitor, fiber);
+  visit_rest_shape(visitor, fiber);
   visit_springs(visitor, fiber);
   visit_chain(visitor, fiber);
 }
@@ -138,6 +156,28 @@ void visit_torque(KeyVisitor& visitor, TorqueConfig& torque) {
   visitor.vector({"angular_velocity", "radians / time", any_number(),
                   "at which the torque itself turns, about the direction of this vector; zero: a constant torque"},
                  torque.angular_velocity);
+}
+
+void visit_clamp(KeyVisitor& visitor, ClampConfig& clamp) {
+  visit_number_of_fiber(visitor, clamp.fiber);
+  visitor.integer({"section", "", between(-1e9, 1e9), "section that is held, from 0; -1 is the last"}, clamp.section);
+  visitor.number(
+      {"stiffness", "force / length", above_zero(),
+       "of the springs that hold the section's nodes, together: force over the distance of its middle. Against "
+       "tilting they hold with stiffness radius^2 / 2, so that two neighbouring sections hold a stiff fiber better"},
+      clamp.stiffness);
+  visitor.vector({"point", "length", any_number(), "where it holds the section's middle at t = 0"}, clamp.point);
+  visitor.vector({"swing", "length", any_number(), "added to the point times sin(angular_frequency t)"}, clamp.swing);
+  visitor.vector({"direction", "", any_number(), "of the fiber there; its length does not matter"}, clamp.direction);
+  visitor.number({"roll", "degrees", between(-360, 360), "of the section about the direction, as a fiber's"},
+                 clamp.roll);
+  visitor.vector({"tilt", "degrees", any_number(),
+                  "the frame turns about the axis of this vector by its length times sin(angular_frequency t)"},
+                 clamp.tilt);
+  visitor.number({"angular_frequency", "radians / time", any_number(), "of swing and tilt"}, clamp.angular_frequency);
+  visitor.number(
+      {"spin", "radians / time", any_number(), "at which the frame turns about the direction, from t = 0 on"},
+      clamp.spin);
 }
 
 void visit_undulation(KeyVisitor& visitor, UndulationConfig& wave) {
@@ -202,7 +242,11 @@ const std::vector<RepeatableTable>& repeatable_tables() {
                  "A torque on a section of a fiber, constant or turning; [[torque]] once for each of several."),
       make_table("undulation", WhenAbsent::stands_for_none, &SceneConfig::undulations, visit_undulation,
                  "A wave of curvature that a tube prefers to being straight, so that it swims; [[undulation]] once for "
-                 "each of several, which are added.")};
+                 "each of several, which are added."),
+      make_table(
+          "clamp", WhenAbsent::stands_for_none, &SceneConfig::clamps, visit_clamp,
+          "A frame that holds a section of a tube and its direction, and may swing, tilt and spin; [[clamp]] once "
+          "for each of several.")};
   return tables;
 }
 

@@ -20,7 +20,8 @@ void check_fibers(const SceneConfig& scene, const SceneReader& reader, std::vect
 void check_profile(const std::vector<ProfilePoint>& profile, const std::string& path, double least_factor,
                    const SceneReader& reader, std::vector<Problem>& problems);
 
-/// The part of check_scene that is about forces: [repulsion], [gravity], [[tether]], [[torque]], [[undulation]].
+/// The part of check_scene that is about forces: [repulsion], [gravity], [[tether]], [[torque]], [[undulation]],
+/// [[clamp]].
 void check_forces(const SceneConfig& scene, const SceneReader& reader, std::vector<Problem>& problems,
                   std::vector<Problem>& warnings);
 

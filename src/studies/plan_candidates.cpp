@@ -20,6 +20,10 @@ namespace {
 std::string find_bar(const SceneConfig& scene, const int rung) {
   if (rung == rigid_rung) return find_bar_to_rigid(scene);
   if (rung == chain_rung && !scene.torques.empty()) return "a chain knows no twist";
+  if (rung == chain_rung &&
+      std::any_of(scene.fibers.begin(), scene.fibers.end(), [](const FiberConfig& fiber) { return fiber.is_helix(); }))
+    return "only tubes are helices at rest";
+  if (rung == chain_rung && !scene.clamps.empty()) return "no clamp turns a chain";
   return rung == chain_rung && !scene.undulations.empty() ? "only tubes undulate" : "";
 }
 

@@ -68,7 +68,8 @@ int scale_section(const int section, const int before, const int after) {
   return section >= 0 ? scale(section) : -1 - scale(-1 - section);
 }
 
-/// Tethers and torques of every fiber at the places that they had, now that fibers have other numbers of sections.
+/// Tethers, torques and clamps of every fiber at the places that they had, now that fibers have other numbers of
+/// sections.
 /// @param before  [n_fibers], their numbers then
 void move_loads(SceneConfig& scene, const std::vector<int>& before) {
   const auto rescale = [&](auto& loads) {
@@ -79,6 +80,7 @@ void move_loads(SceneConfig& scene, const std::vector<int>& before) {
   };
   rescale(scene.tethers);
   rescale(scene.torques);
+  rescale(scene.clamps);
 }
 
 SceneConfig make_line_scene(SceneConfig scene, const FiberModel model) {
@@ -107,6 +109,8 @@ std::string find_bar_to_rigid(const SceneConfig& scene) {
     return "fibers start bent";
   if (!scene.torques.empty()) return "torques turn sections";
   if (!scene.undulations.empty()) return "fibers undulate";
+  if (!scene.clamps.empty()) return "clamps turn sections";
+  if (has([](const FiberConfig& fiber) { return fiber.is_helix(); })) return "a fiber is a helix at rest";
   if (scene.time.method == TimeMethod::trbdf2) return "time.method is \"trbdf2\"";
   return {};
 }

@@ -84,6 +84,10 @@ class Claims:
         print(f"{what}: {found:.5g}, {source} {reference:.5g}: {difference:+.2%}, allowed {tolerance:.2%}"
               + (" FAILS" if fails else ""), flush=True)
 
+    def state(self, what, found, reference, source):
+        """Of a theory that is known to be off: no claim."""
+        print(f"{what}: {found:.5g}, {source} {reference:.5g}: {found / reference - 1:+.0%}", flush=True)
+
     def check(self, what, found, largest):
         fails = not abs(found) <= largest
         self.failed += fails

@@ -71,6 +71,10 @@ SceneConfig make_random_scene(Random& random) {
     scene.tethers = {{0, -1, random.log_uniform(0.1, 3.0), random.in_cube(0.02), random.in_cube(0.3),
                       random.in_cube(0.01), random.uniform(0.0, 30.0)}};
   if (random.bits() % 3 == 0) scene.torques = {{0, 1, random.in_cube(1e-4), random.in_cube(20.0)}};
+  if (random.bits() % 3 == 0)
+    scene.clamps = {{0, 0, random.log_uniform(0.1, 3.0), random.in_cube(0.02), random.in_cube(0.01), random.direction(),
+                     random.uniform(0.0, 90.0), random.in_cube(20.0), random.uniform(0.0, 30.0),
+                     random.uniform(-9.0, 9.0)}};
   scene.time.method = methods[random.bits() % 6];
   if (scene.fibers.back().is_rigid() && scene.time.method == TimeMethod::trbdf2) scene.time.method = TimeMethod::bs3;
   const bool is_explicit = scene.time.method >= TimeMethod::rk4 || scene.time.method == TimeMethod::euler;

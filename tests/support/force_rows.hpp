@@ -72,6 +72,24 @@ inline const ForceRow force_rows[] = {
                             {1, -17.0, 0.0, -2.0, -50.0, 0.0, 0.0},
                             {0, 12.0, 0.05, 5.0, 0.0, 130.0, 0.0}};
      }},
+    {"clamp",
+     [](SceneConfig& scene) {
+       scene.clamps = {
+           {0, 2, 1.3, {0.01, 0.02, -0.03}, {0.0, 0.02, 0.01}, {0.3, -0.5, 0.2}, 40.0, {50.0, -20.0, 90.0}, 3.1, 1.7},
+           {1, -1, 0.7, {0.0, -0.01, 0.02}, {}, {-1.0, 0.0, 0.0}, 0.0, {}, 0.0, -2.0},
+           {0, 2, 0.4, {}, {0.01, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.0, {0.0, 0.0, 30.0}, 2.0}};
+     }},
+    {"steady_clamp",
+     [](SceneConfig& scene) {
+       scene.clamps = {{.fiber = 1, .section = 1, .stiffness = 2.0, .tilt = {0.0, 10.0, 0.0}}};
+     }},
+    {"helix",
+     [](SceneConfig& scene) {
+       scene.fibers[0].helix_radius = 0.01, scene.fibers[0].helix_pitch = -0.06;
+       scene.fibers[0].helix_taper = 0.02, scene.fibers[0].reach_along = 2;
+       scene.undulations = {{.fiber = 0, .curvature = 12.0, .wavelength = 0.05, .angular_frequency = 5.0}};
+     }},
+    {"steady_helix", [](SceneConfig& scene) { scene.fibers[1].helix_radius = 0.01; }},
     {"steady_undulation", [](SceneConfig& scene) { scene.undulations = {{.fiber = 1, .curvature = 25.0}}; }},
 };
 

@@ -22,6 +22,8 @@ inline SceneConfig rescale(SceneConfig scene, const Units& units) {
   for (FiberConfig& fiber : scene.fibers) {
     fiber.radius *= length, fiber.blob *= length, fiber.spring_stiffness *= force;
     fiber.center = length * fiber.center, fiber.spacing *= length;
+    fiber.helix_radius *= length, fiber.helix_pitch *= length;
+    fiber.helix_taper *= length, fiber.helix_shaft *= length;
     fiber.bending_rigidity *= force * length * length;
     fiber.shear_couple *= force * time, fiber.end_couple *= force * length * time;
   }
@@ -35,6 +37,10 @@ inline SceneConfig rescale(SceneConfig scene, const Units& units) {
   for (TorqueConfig& torque : scene.torques) {
     torque.torque = (force * length) * torque.torque;
     torque.angular_velocity = (1.0 / time) * torque.angular_velocity;
+  }
+  for (ClampConfig& clamp : scene.clamps) {
+    clamp.stiffness *= force / length, clamp.angular_frequency /= time, clamp.spin /= time;
+    clamp.point = length * clamp.point, clamp.swing = length * clamp.swing;
   }
   for (UndulationConfig& wave : scene.undulations) {
     wave.curvature /= length, wave.wavelength *= length;

@@ -142,6 +142,7 @@ const Case cases[] = {
                     {.section = -1, .point = {0.1, 0.0, 0.0}}};
      },
      "tether[0]"},
+    {"clamp", {z, none}, [](SceneConfig& s) { s.clamps = {{}}; }, "clamps"},
     {"waves", {z, none}, [](SceneConfig& s) { s.undulations = {{.curvature = 5.0}}; }, "undulate"},
     {"torque about the normal",
      {z, none},

@@ -27,10 +27,11 @@ struct SectionPose {
 /// Adds the nodes of a section. @param nodes  length
 void append_section_nodes(const FiberConfig& config, const SectionPose& section, std::vector<Vec3>& nodes);
 
-/// Sections of a fiber at the start: straight, or bent by start_amplitude and start_noise. A bent fiber keeps its
-/// length (neighbouring sections are a spacing apart) and its circular sections, which stay perpendicular to its
-/// centreline. The slope of the centreline against the fiber's direction is that of a sine for each bend; that of
-/// start_mode is as steep as brings a section start_amplitude L away from the line through the ends.
+/// Sections of a fiber at the start: a helix where that is its rest shape, straight, or bent by start_amplitude and
+/// start_noise. A bent fiber keeps its length (neighbouring sections are a spacing apart) and its circular sections,
+/// which stay perpendicular to its centreline. The slope of the centreline against the fiber's direction is that of a
+/// sine for each bend; that of start_mode is as steep as brings a section start_amplitude L away from the line through
+/// the ends.
 /// @param seed  of the random bends, with the fiber's index
 /// @returns [fiber.config.sections]
 /// @throws Error(scene_error) where no slope reaches the amplitude, see find_start_problems

@@ -46,7 +46,8 @@ struct ProfilePoint {
   friend bool operator==(const ProfilePoint&, const ProfilePoint&) = default;
 };
 
-/// One tube of surface nodes, or a line of single ones, straight at rest; several instances make several fibers.
+/// One tube of surface nodes, or a line of single ones, straight or a helix at rest; several instances make several
+/// fibers.
 ///
 /// A line is a chain or rigid. One whose nodes_per_section is 1 is what its keys say: spring_stiffness is EA. One with
 /// more nodes stands for the tube of the same keys and is turned into the other kind by resolve_chains.
@@ -66,6 +67,11 @@ struct FiberConfig {
   double start_plane = 0.0;      ///< degrees about the direction; 0: towards y for a fiber along x
   double start_noise = 0.0;      ///< amplitude of random bends, as a fraction of the fiber's length
 
+  double helix_radius = 0.0;  ///< of the rest shape, length; 0: straight
+  double helix_pitch = 0.1;   ///< along its axis for a turn, length; below 0: left-handed
+  double helix_taper = 0.0;   ///< along the axis, over which the radius rises, length
+  double helix_shaft = 0.0;   ///< straight piece at the first end, length
+
   std::vector<ProfilePoint> stiffness_profile{{0.0, 1.0}, {1.0, 1.0}};  ///< straight lines between the points
   double stiffness_within_sections = 1.0;                               ///< factor of spring_stiffness
   double stiffness_between_sections = 1.0;                              ///< factor of spring_stiffness
@@ -81,6 +87,7 @@ struct FiberConfig {
   /// True where single nodes on the centreline make the fiber, or will when it is laid out.
   bool is_line() const { return model != FiberModel::tube; }
   bool is_rigid() const { return model == FiberModel::rigid; }
+  bool is_helix() const { return helix_radius > 0.0; }
   /// True where it waits to be turned into a line with numbers of its own, see resolve_chains.
   bool stands_for_tube() const { return is_line() && nodes_per_section > 1; }
   friend bool operator==(const FiberConfig&, const FiberConfig&) = default;
@@ -132,6 +139,21 @@ struct TorqueConfig {
   Vec3 torque{0.0, 0.0, 0.0};            ///< at t = 0, force * length
   Vec3 angular_velocity{0.0, 0.0, 0.0};  ///< of its direction, radians / time
   friend bool operator==(const TorqueConfig&, const TorqueConfig&) = default;
+};
+
+/// A frame that holds a section of a tube: each of its nodes by a spring without a rest length, at its place about
+/// point + swing sin(angular_frequency t), turned by tilt sin(angular_frequency t) and spun about the direction.
+struct ClampConfig {
+  int fiber = 0;
+  int section = 0;         ///< from 0, or from the end as -1
+  double stiffness = 1.0;  ///< of all springs together, force / length
+  Vec3 point{0.0, 0.0, 0.0}, swing{0.0, 0.0, 0.0};
+  Vec3 direction{1.0, 0.0, 0.0};   ///< of the fiber there, any length but zero
+  double roll = 0.0;               ///< degrees, as a fiber's
+  Vec3 tilt{0.0, 0.0, 0.0};        ///< degrees about the axis of this direction
+  double angular_frequency = 0.0;  ///< of swing and tilt, radians / time
+  double spin = 0.0;               ///< about the direction, radians / time
+  friend bool operator==(const ClampConfig&, const ClampConfig&) = default;
 };
 
 /// A wave of preferred curvature in a tube, through the lengths at rest of the springs between its sections:
@@ -217,6 +239,7 @@ struct SceneConfig {
   std::vector<TetherConfig> tethers;
   std::vector<TorqueConfig> torques;
   std::vector<UndulationConfig> undulations;
+  std::vector<ClampConfig> clamps;
   SymmetryConfig symmetry;
   HydrodynamicsConfig hydrodynamics;
   TimeConfig time;
