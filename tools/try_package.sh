@@ -30,8 +30,14 @@ clean_up() {
 }
 trap clean_up EXIT
 
+# From where this machine's apt has Debian 12 itself.
+# shellcheck disable=SC2016 # apt expands REPO_URI
+mirror=${DEBIAN_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Origin: Debian' 'Codename: bookworm' |
+  sed -n 1p)}
+[[ -n $mirror ]] || fail "apt's lists have no Debian 12: run 'apt-get update', or set DEBIAN_MIRROR."
+
 echo "A bare Debian 12 in $root"
-debootstrap --variant=minbase bookworm "$root" "${DEBIAN_MIRROR:-http://deb.debian.org/debian}" >"$root.log" 2>&1 ||
+debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" 2>&1 ||
   fail "debootstrap failed; its output is in $root.log"
 rm "$root.log"
 for part in apt/sources.list apt/sources.list.d apt/apt.conf.d apt/trusted.gpg.d resolv.conf hosts ssl/certs; do
