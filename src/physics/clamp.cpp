@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace skein {
@@ -155,10 +154,7 @@ class Clamps final : public Force {
   }
 
   double time_scale() const override { return time_scale_; }
-  void add_course(TimeCourse& course) const override {
-    if (fastest_ > 0.0)
-      course.add_oscillation(0.0, std::numeric_limits<double>::infinity(), 2.0 * std::numbers::pi / fastest_);
-  }
+  void add_course(TimeCourse& course) const override { add_endless_oscillation(course, fastest_); }
 
   std::string describe() const override {
     return fmt::format("{} clamp{} in {} frames", loads_.n_loads(), loads_.n_loads() == 1 ? "" : "s",
@@ -175,14 +171,7 @@ class Clamps final : public Force {
 }  // namespace
 
 void append_clamps(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
-  for (std::size_t i = 0; i < scene.clamps.size(); ++i) {
-    const int fiber = scene.clamps[i].fiber;
-    if (fiber < static_cast<int>(fibers.size()) && fibers[fiber].config.is_line())
-      throw Error(ExitCode::scene_error, fmt::format("clamp[{}].fiber {}: sections of chains and rigid fibers are "
-                                                     "points, which no clamp turns; take a tube, or [[tether]]s that "
-                                                     "hold two sections",
-                                                     i, fiber));
-  }
+  refuse_lines("clamp", "no clamp turns; take a tube, or [[tether]]s that hold two sections", scene.clamps, fibers);
   if (!scene.clamps.empty()) forces.push_back(std::make_unique<Clamps>(scene.clamps, fibers));
 }
 

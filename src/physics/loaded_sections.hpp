@@ -56,6 +56,20 @@ void add_by_fibers(const LoadedSections<Load>& loads, const Scalars& of_section,
   for (std::size_t s = 0; s < values.size(); ++s) sum[sections(s).fiber] += values[s];
 }
 
+/// For loads that turn sections. @param advice  the end of the message, after "points, which "
+/// @throws Error(scene_error) where the fiber of one has sections of single nodes
+template <class Config>
+void refuse_lines(const char* what, const char* advice, const std::vector<Config>& configs,
+                  const std::vector<Fiber>& fibers) {
+  for (std::size_t i = 0; i < configs.size(); ++i) {
+    const int fiber = configs[i].fiber;
+    if (fiber < static_cast<int>(fibers.size()) && fibers[fiber].config.is_line())
+      throw Error(ExitCode::scene_error,
+                  fmt::format("{}[{}].fiber {}: sections of chains and rigid fibers are points, which {}", what, i,
+                              fiber, advice));
+  }
+}
+
 /// @param what     "tether": names an instance in messages, and the arrays
 /// @param configs  each with a fiber and a section; a section below 0 counts from the end, -1 is the last
 /// @param make     the load of a config

@@ -66,6 +66,11 @@ double find_undulation_time(const std::vector<UndulationConfig>& undulations) {
   return time;
 }
 
+void add_endless_oscillation(TimeCourse& course, const double angular_frequency) {
+  if (angular_frequency != 0.0)
+    course.add_oscillation(0.0, infinity, 2.0 * std::numbers::pi / std::abs(angular_frequency));
+}
+
 double find_relaxation_time(const std::vector<Fiber>& fibers, const double viscosity) {
   constexpr double wave_number = 4.7300;  // times the length, of the first bend of a beam with free ends
   double time = infinity;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/core/time_course.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/scene/scene_config.hpp>
 
@@ -23,6 +24,9 @@ double find_clamp_time(const std::vector<ClampConfig>& clamps, const std::vector
 
 /// Of waves that travel or beat: a period.
 double find_undulation_time(const std::vector<UndulationConfig>& undulations);
+
+/// What oscillates from t = 0 on, for ever. @param angular_frequency  radians / time, of either sign; 0 adds nothing
+void add_endless_oscillation(TimeCourse& course, double angular_frequency);
 
 /// In which the slowest bend of a free fiber relaxes.
 double find_relaxation_time(const std::vector<Fiber>& fibers, double viscosity);

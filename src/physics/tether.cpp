@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace skein {
 namespace {
@@ -114,10 +112,7 @@ class Tethers final : public Force {
   }
 
   double time_scale() const override { return time_scale_; }
-  void add_course(TimeCourse& course) const override {
-    if (fastest_swing_ > 0.0)
-      course.add_oscillation(0.0, std::numeric_limits<double>::infinity(), 2.0 * std::numbers::pi / fastest_swing_);
-  }
+  void add_course(TimeCourse& course) const override { add_endless_oscillation(course, fastest_swing_); }
 
   std::string describe() const override {
     return fmt::format("{} tether{} to {} points", loads_.n_loads(), loads_.n_loads() == 1 ? "" : "s",

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <numbers>
 
 namespace skein {
 namespace {
@@ -140,10 +138,7 @@ class Torques final : public Force {
   }
 
   double time_scale() const override { return time_scale_; }
-  void add_course(TimeCourse& course) const override {
-    if (!is_steady_)
-      course.add_oscillation(0.0, std::numeric_limits<double>::infinity(), 2.0 * std::numbers::pi / fastest_turn_);
-  }
+  void add_course(TimeCourse& course) const override { add_endless_oscillation(course, fastest_turn_); }
 
   std::string describe() const override {
     return fmt::format("{} {} torque{} on sections", loads_.n_loads(), is_steady_ ? "constant" : "turning",
@@ -161,14 +156,8 @@ class Torques final : public Force {
 }  // namespace
 
 void append_torques(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces) {
-  for (std::size_t i = 0; i < scene.torques.size(); ++i) {
-    const int fiber = scene.torques[i].fiber;
-    if (fiber < static_cast<int>(fibers.size()) && fibers[fiber].config.is_line())
-      throw Error(ExitCode::scene_error, fmt::format("torque[{}].fiber {}: sections of chains and rigid fibers are "
-                                                     "points, which no torque turns; take a tube, or "
-                                                     "[[tether]]s that pull at two sections",
-                                                     i, fiber));
-  }
+  refuse_lines("torque", "no torque turns; take a tube, or [[tether]]s that pull at two sections", scene.torques,
+               fibers);
   if (!scene.torques.empty()) forces.push_back(std::make_unique<Torques>(scene.torques, fibers, scene.fluid.viscosity));
 }
 

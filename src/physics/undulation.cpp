@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace skein {
 namespace {
@@ -128,10 +126,8 @@ class Undulations final : public Force {
   double time_scale() const override { return find_undulation_time(configs_); }
 
   void add_course(TimeCourse& course) const override {
-    constexpr double for_ever = std::numeric_limits<double>::infinity();
     for (const UndulationConfig& config : configs_) {
-      if (config.angular_frequency != 0.0)
-        course.add_oscillation(0.0, for_ever, 2.0 * std::numbers::pi / std::abs(config.angular_frequency));
+      add_endless_oscillation(course, config.angular_frequency);
       if (config.ramp > 0.0) course.add_ramp(0.0, config.ramp);
     }
   }

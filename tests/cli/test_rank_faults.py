@@ -133,42 +133,38 @@ class RankFaults(InFreshFolder):
     def start(self, *options, **fault):
         self.launch("run", "scene.toml", "-o", "run", "--quiet", *options, **fault)
 
+    def start_and_send(self, number, rank):
+        """To one rank of a run that has made steps. @returns the time"""
+        self.start()
+        self.wait_for_steps()
+        since = time.monotonic()
+        os.kill(self.rank_pid(rank), number)
+        return since
+
     def test_a_rank_that_throws(self):
         self.start(variables="SKEIN_TEST_RANK=throw:200")
         self.finish([INTERNAL], "rank 1: SKEIN_TEST_RANK asks for this error", self.wait_for_fault())
 
     def test_a_rank_that_is_killed(self):
-        self.start()
-        self.wait_for_steps()
-        since = time.monotonic()
-        os.kill(self.rank_pid(2), signal.SIGKILL)
+        since = self.start_and_send(signal.SIGKILL, rank=2)
         # mpirun notices it, says so, and ends the others.
         said = self.finish([128 + signal.SIGKILL], None, since)
         self.assertRegex(said, r"exited on signal 9 \(Killed\)")
 
     def test_rank_0_that_is_killed(self):
-        self.start()
-        self.wait_for_steps()
-        since = time.monotonic()
-        os.kill(self.rank_pid(0), signal.SIGKILL)
+        since = self.start_and_send(signal.SIGKILL, rank=0)
         said = self.finish([128 + signal.SIGKILL], None, since)
         self.assertRegex(said, r"exited on signal 9 \(Killed\)")
 
     def test_a_rank_that_is_stopped(self):
-        self.start()
-        self.wait_for_steps()
-        since = time.monotonic()
-        os.kill(self.rank_pid(1), signal.SIGSTOP)
+        since = self.start_and_send(signal.SIGSTOP, rank=1)
         self.finish([IO_ERROR], "rank 1 has not been heard of for 5 s", since)
         log = (self.run_folder / "run.log").read_text(encoding="utf-8")
         self.assertIn("rank 1 has not been heard of", log)
         self.assertIn("the last good state", log)
 
     def test_rank_0_that_is_stopped(self):
-        self.start()
-        self.wait_for_steps()
-        since = time.monotonic()
-        os.kill(self.rank_pid(0), signal.SIGSTOP)
+        since = self.start_and_send(signal.SIGSTOP, rank=0)
         self.finish([IO_ERROR], "rank 0 has not been heard of for 5 s", since)
 
     def test_a_rank_that_sleeps(self):
