@@ -12,22 +12,16 @@ import numpy as np
 
 from check_settling import BLOB, NODES, RADIUS, SPACING, make_stiffness, measure_rigidity, tube
 from check_swimming import find_thickness
-from dense_stokes import Claims, make_mobility, run, solve_rigid
+from dense_stokes import Claims, make_mobility, run, solve_rigid, write_tube
 
 FIBER = """[flow]
 kind = "none"
 [fiber]
-sections = {sections}
-nodes_per_section = {nodes}
-radius = {radius}
-blob = {blob}
-spacing = {spacing}
-spring_stiffness = {stiffness}
 """
 
 
 def write_fiber(sections, stiffness):
-    return FIBER.format(sections=sections, nodes=NODES, radius=RADIUS, blob=BLOB, spacing=SPACING, stiffness=stiffness)
+    return FIBER + write_tube(sections, NODES, RADIUS, BLOB, SPACING, stiffness)
 
 
 def check_trap(program, claims, sections=31):

@@ -10,7 +10,7 @@ import sys
 import numpy as np
 
 from check_swimming import find_thickness
-from dense_stokes import Claims, make_mobility, run
+from dense_stokes import Claims, make_mobility, run, write_tube
 
 RADIUS, BLOB, NODES = 0.01, 0.0057, 6
 SPIN = 1.0
@@ -21,12 +21,7 @@ def write_scene(sections, helix, pitch, stiffness, motion, end, frames=10, shaft
     text = f"""[flow]
 kind = "none"
 [fiber]
-sections = {sections}
-nodes_per_section = {NODES}
-radius = {RADIUS}
-blob = {BLOB}
-spacing = {RADIUS}
-spring_stiffness = {stiffness}
+{write_tube(sections, NODES, RADIUS, BLOB, RADIUS, stiffness)}
 helix_radius = {helix}
 helix_pitch = {pitch}
 helix_shaft = {shaft}

@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 
-from dense_stokes import Claims, make_rigid_motions, mean_velocity, place_tube, run, solve_rigid
+from dense_stokes import Claims, make_rigid_motions, mean_velocity, place_tube, run, solve_rigid, write_tube
 
 RADIUS, BLOB, SPACING, NODES = 0.01, 0.008, 0.01, 6
 WEIGHT = 1.0
@@ -31,12 +31,7 @@ frame_interval = {end / frames}
     for center in fibers:
         text += f"""[[fiber]]
 model = "{model}"
-sections = {sections}
-nodes_per_section = {NODES}
-radius = {RADIUS}
-blob = {BLOB}
-spacing = {SPACING}
-spring_stiffness = {stiffness}
+{write_tube(sections, NODES, RADIUS, BLOB, SPACING, stiffness)}
 center = {list(center)}
 """
     return text

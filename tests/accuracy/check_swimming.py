@@ -12,7 +12,7 @@ import tomllib
 
 import numpy as np
 
-from dense_stokes import Claims, make_mobility, make_rigid_motions, mean_velocity, place_tube, run, solve_rigid
+from dense_stokes import Claims, make_mobility, make_rigid_motions, mean_velocity, place_tube, run, solve_rigid, write_tube
 
 SMALL = {"sections": 33, "nodes_per_section": 4, "radius": 0.005, "blob": 0.0035, "spring_stiffness": 6.0, "spacing": 0.006,
          "curvature": 12.0, "wavelength": 0.1, "end": 2.5}
@@ -22,12 +22,7 @@ def write_scene(of):
     return f"""[flow]
 kind = "none"
 [fiber]
-sections = {of["sections"]}
-nodes_per_section = {of["nodes_per_section"]}
-radius = {of["radius"]}
-blob = {of["blob"]}
-spring_stiffness = {of["spring_stiffness"]}
-spacing = {of["spacing"]}
+{write_tube(of["sections"], of["nodes_per_section"], of["radius"], of["blob"], of["spacing"], of["spring_stiffness"])}
 [[undulation]]
 curvature = {of["curvature"]}
 wavelength = {of["wavelength"]}

@@ -49,6 +49,17 @@ def solve_rigid(bodies, blob):
     return forces, motions.T @ forces
 
 
+def write_tube(sections, nodes_per_section, radius, blob, spacing, stiffness):
+    """The keys of a tube in a scene's [fiber], lines."""
+    return f"""sections = {sections}
+nodes_per_section = {nodes_per_section}
+radius = {radius}
+blob = {blob}
+spacing = {spacing}
+spring_stiffness = {stiffness}
+"""
+
+
 def run(program, scene, sets=(), timeout=900):
     """Runs a scene, given as text. @returns times [m], positions [m, n, 3], the analysis' columns by fibers, its summary"""
     with tempfile.TemporaryDirectory() as folder:
