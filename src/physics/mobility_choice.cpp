@@ -169,6 +169,7 @@ std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene) {
     problems.push_back(
         {"hydrodynamics.far_field",
          "hydrodynamics.far_field = \"regularized\" needs one blob for all fibers; \"harmonic\" does not"});
+  if (scene.placement.kind != PlacementKind::as_written) return problems;  // where its nodes will be is not known yet
   if (const std::string lack = find_lack_of_far_field(options, size);
       config.method == SumMethod::fmm && problems.empty() && !lack.empty())
     problems.push_back(

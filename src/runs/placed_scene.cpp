@@ -30,7 +30,8 @@ std::vector<KeyProblem> find_problems(const SceneConfig& scene) {
 
 std::vector<KeyProblem> find_problems_of_placed(const SceneConfig& scene, const SceneConfig& placed) {
   auto problems = find_time_problems(placed);
-  for (const auto& found : {find_symmetry_problems(placed), find_overlap_problems(scene, make_fibers(placed.fibers))})
+  for (const auto& found : {find_mobility_problems(placed), find_symmetry_problems(placed),
+                            find_overlap_problems(scene, make_fibers(placed.fibers))})
     problems.insert(problems.end(), found.begin(), found.end());
   return problems;
 }

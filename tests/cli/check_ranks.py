@@ -69,6 +69,8 @@ orientation = "random"
 strength = 2.5
 range = 0.005
 """
+# Enough nodes apart for leaves that are far from each other.
+SPREAD_FIBERS = MANY_FIBERS.replace("nodes_per_section = 4", "nodes_per_section = 6").replace("0.25", "0.5")
 CASES = {
     "direct_rkc2": (FIBER.format(sections=24, nodes=18, blob=0.00225), "direct", "rkc2"),
     "direct_trbdf2": (FIBER.format(sections=24, nodes=18, blob=0.00225), "direct", "trbdf2"),
@@ -77,6 +79,7 @@ CASES = {
     "few_nodes": (FIBER.format(sections=10, nodes=6, blob=0.0065), "direct", "rkc2"),
     "two_fibers": (TWO_FIBERS, "direct", "rkc2"),
     "many_fibers": (MANY_FIBERS, "auto", "rkc2"),
+    "fmm_many_fibers": (SPREAD_FIBERS, "fmm", "rkc2"),
 }
 POSITION = "fibers/position/value"
 STEPS = 100
@@ -126,6 +129,10 @@ def check_case(program, mpirun, folder, name):
     reference = arrays(runs[1])
     first, n_steps = reference[POSITION], reference["evaluations/value"].shape[0]
     check(n_steps >= STEPS, f"{name}: only {n_steps} steps")
+    if sums == "fmm":
+        check(reference["fmm_order/value"].min() > 0, f"{name}: sums were direct")
+        # More than the rounding of pairs: some boxes meet by expansions.
+        check(np.nanmax(reference["velocity_error/value"]) > 1e-6, f"{name}: nothing is far")
     moved = np.abs(first[-1] - first[0]).max()
     check(moved > 1e-4, f"{name}: nothing moves")
     for n_ranks in (2, 3, 4):

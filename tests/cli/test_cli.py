@@ -59,6 +59,13 @@ class BadScenes(InFreshFolder):
         expected = scene.read_text().splitlines()[0].removeprefix("#! overlap.toml")
         self.assertEqual(problem_lines(result.stderr), [f"/dev/stdin{expected}"])
 
+    def test_a_far_field_is_asked_of_placed_fibers(self):
+        """Not of one fiber that is to be placed many times, and is short."""
+        near = (SOURCES / "tests/cli/bad_scenes/fmm_blob_against_placed.toml").read_text()
+        far = self.validate_content(near.replace("grid = [2, 2, 2]", "grid = [12, 2, 2]"))
+        self.assertEqual(far.returncode, DONE, far.stderr)
+        self.assertIn("fast multipole method", far.stdout)
+
     def test_an_empty_file_is_called_empty(self):
         self.check_single("", "scene.toml:1:1: the file is empty")
         self.check_single(" \n\t\n", "scene.toml:1:1: the file is empty")

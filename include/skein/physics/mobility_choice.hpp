@@ -29,7 +29,8 @@ std::string describe_direct_sum(Precision precision);
 /// One line: method, order, leaves, expected error, and why.
 std::string describe_choice(const MobilityChoice& choice, const SceneConfig& scene);
 
-/// What [hydrodynamics] asks for and no method delivers for these fibers. For read_scene.
+/// What [hydrodynamics] asks for and no method delivers for these fibers. For read_scene, and again once fibers are
+/// placed: whether anything is far enough from anything else is only asked of a scene whose fibers are as written.
 std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene);
 
 }  // namespace skein
