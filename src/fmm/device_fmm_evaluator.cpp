@@ -45,7 +45,7 @@ void DeviceFmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, 
   statistics.memory_bytes =
       in.store.bytes() + in.operators.bytes() +
       sizeof(Real) * static_cast<double>(2 * in.coefficients.source.size() + in.coefficients.products.size()) +
-      sorted_.bytes() + tree_.bytes();
+      sorted_.bytes() + tree_.bytes() + far_order_.bytes() + parts_.bytes();
 }
 
 template <class Real, class Field>
@@ -62,12 +62,12 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
   const std::size_t n_products = std::clamp(most_product_bytes_ / (sizeof(Real) * box_size), std::size_t{1},
                                             static_cast<std::size_t>(std::max(1, tree_.v_list.n_entries)));
   require_extent(coefficients.products, n_products * box_size, "skein::device_fmm_evaluator::products");
-  compute_coefficients_by_teams<ExecSpace, Real, Field>(space_, tree_, sorted_, field, levels, coefficients,
+  compute_coefficients_by_teams<ExecSpace, Real, Field>(space_, tree_, far_order_, sorted_, field, levels, coefficients,
                                                         team_size_);
   space_.fence();
   statistics.far_seconds = watch.lap();
   with_near_precision<Real>(plan, [&](auto near) {
-    sum_leaf_velocities_by_teams<ExecSpace, decltype(near), Real, Field>(space_, tree_, sorted_, field, levels,
+    sum_leaf_velocities_by_teams<ExecSpace, decltype(near), Real, Field>(space_, tree_, parts_, sorted_, field, levels,
                                                                          coefficients, own_velocity_, team_size_);
   });
   space_.fence();
@@ -77,6 +77,8 @@ void DeviceFmmEvaluator::pass(const FmmPlan& plan, const Field& field, const Dev
 void DeviceFmmEvaluator::require_tree(const OctreeRules& rules) {
   if (keeping_.may_serve(rules) && tree_.still_fits(space_, nodes_.position, nodes_.target)) return;
   tree_.build(space_, nodes_.position, nodes_.target, rules);
+  far_order_.build(space_, tree_);
+  parts_.build(space_, tree_, part_targets);
   keeping_.note_new_tree(rules);
   ++statistics.n_trees;
   count_work();

@@ -46,7 +46,9 @@ class DeviceFmmEvaluator final : public FmmSum {
   std::size_t most_product_bytes_;
   UnsortedNodes<ExecSpace> nodes_;
   BlobRange blobs_{0.0, 0.0};
-  DeviceOctree<ExecSpace> tree_;
+  Octree<ExecSpace> tree_;
+  FarOrder<ExecSpace> far_order_;
+  LeafParts<ExecSpace> parts_;
   TreeKeeping keeping_;
   DeviceNodes<ExecSpace> sorted_;
   InPrecision<double> in_double_;

@@ -11,8 +11,8 @@ struct Leaves {
   OctreeCube cube;
   Kokkos::View<const Box*, Space> boxes;
   Kokkos::View<const int*, Space> target_leaves, near_end, target_order;
-  DeviceLists<IndexRange, Space> u_list;
-  DeviceLists<int, Space> w_list;
+  Lists<IndexRange, Space> u_list;
+  Lists<int, Space> w_list;
   DeviceNodes<Space> nodes;
   Field field;
   DeviceLevels<Space, Real> levels;
@@ -175,8 +175,9 @@ KOKKOS_INLINE_FUNCTION void team_add_part(const Team& team, const Leaves<Space, 
 }  // namespace
 
 template <class Space, class Near, class Real, class Field>
-void sum_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>& tree, const DeviceNodes<Space>& nodes,
-                                  const Field& field, const DeviceLevels<Space, Real>& levels,
+void sum_leaf_velocities_by_teams(const Space& space, const Octree<Space>& tree, const LeafParts<Space>& parts,
+                                  const DeviceNodes<Space>& nodes, const Field& field,
+                                  const DeviceLevels<Space, Real>& levels,
                                   const DeviceCoefficients<Space, Real>& coefficients,
                                   const VectorView<Space>& velocity, const int team_size) {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
@@ -184,7 +185,7 @@ void sum_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>&
   using Densities = TeamArray<Space, Real>;
   using Sums = TeamArray<Space, double>;
   using Shape = PartShape<Near>;
-  if (tree.n_parts == 0) return;
+  if (parts.n_parts == 0) return;
   const Leaves<Space, Real, Field> leaves{
       tree.cube, tree.boxes, tree.target_leaves, tree.near_end, tree.target_order(), tree.u_list, tree.w_list, nodes,
       field,     levels,     coefficients};
@@ -193,9 +194,9 @@ void sum_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>&
                               Densities::shmem_size(static_cast<std::size_t>(n_densities)) +
                               Sums::shmem_size(Shape::n_sums);
   const int scratch_level = choose_scratch_level(n_bytes);
-  const auto part_leaf = tree.part_leaf, part_place = tree.part_place;
+  const auto part_leaf = parts.leaf, part_place = parts.place;
   Kokkos::parallel_for(
-      "skein::sum_leaf_velocities_by_teams", make_team_policy(space, tree.n_parts, team_size, scratch_level, n_bytes),
+      "skein::sum_leaf_velocities_by_teams", make_team_policy(space, parts.n_parts, team_size, scratch_level, n_bytes),
       KOKKOS_LAMBDA(const Team& team) {
         const Tile tile(team.team_scratch(scratch_level), team_tile);
         const Densities density(team.team_scratch(scratch_level), n_densities);
@@ -212,10 +213,10 @@ void sum_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>&
       });
 }
 
-#define SKEIN_INSTANTIATE_FOR(S, Near, Real, Field)                                                        \
-  template void sum_leaf_velocities_by_teams<S, Near, Real, Field>(                                        \
-      const S&, const DeviceOctree<S>&, const DeviceNodes<S>&, const Field&, const DeviceLevels<S, Real>&, \
-      const DeviceCoefficients<S, Real>&, const VectorView<S>&, int);
+#define SKEIN_INSTANTIATE_FOR(S, Near, Real, Field)                                         \
+  template void sum_leaf_velocities_by_teams<S, Near, Real, Field>(                         \
+      const S&, const Octree<S>&, const LeafParts<S>&, const DeviceNodes<S>&, const Field&, \
+      const DeviceLevels<S, Real>&, const DeviceCoefficients<S, Real>&, const VectorView<S>&, int);
 #define SKEIN_INSTANTIATE_FIELD(S, Field)         \
   SKEIN_INSTANTIATE_FOR(S, double, double, Field) \
   SKEIN_INSTANTIATE_FOR(S, double, float, Field)  \

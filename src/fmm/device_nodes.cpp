@@ -9,8 +9,8 @@ double DeviceNodes<Space>::bytes() const {
 }
 
 template <class Space>
-void sort_nodes(const Space& space, const DeviceOctree<Space>& tree, const UnsortedNodes<Space>& nodes,
-                const double scale, DeviceNodes<Space>& sorted) {
+void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNodes<Space>& nodes, const double scale,
+                DeviceNodes<Space>& sorted) {
   const auto n_sources = static_cast<std::size_t>(tree.n_sources), n_targets = static_cast<std::size_t>(tree.n_targets);
   if (sorted.target.data() == sorted.position.data()) sorted.target = {};
   require_extent(sorted.position, n_sources, "skein::device_nodes::sorted_position");
@@ -38,7 +38,7 @@ void sort_nodes(const Space& space, const DeviceOctree<Space>& tree, const Unsor
 
 #define SKEIN_INSTANTIATE(S)                     \
   template double DeviceNodes<S>::bytes() const; \
-  template void sort_nodes<S>(const S&, const DeviceOctree<S>&, const UnsortedNodes<S>&, double, DeviceNodes<S>&);
+  template void sort_nodes<S>(const S&, const Octree<S>&, const UnsortedNodes<S>&, double, DeviceNodes<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

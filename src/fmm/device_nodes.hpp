@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fmm/device_octree.hpp"
+#include "fmm/octree.hpp"
 
 namespace skein {
 
@@ -22,7 +22,7 @@ struct UnsortedNodes {
 };
 
 template <class Space>
-void sort_nodes(const Space& space, const DeviceOctree<Space>& tree, const UnsortedNodes<Space>& nodes, double scale,
+void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNodes<Space>& nodes, double scale,
                 DeviceNodes<Space>& sorted);
 
 }  // namespace skein

@@ -12,10 +12,10 @@ template <class Space, class Real, class Field>
 struct Passes {
   OctreeCube cube;
   Kokkos::View<const Box*, Space> boxes;
-  DeviceLists<FarPair, Space> v_list;
+  Lists<FarPair, Space> v_list;
   Kokkos::View<const std::uint64_t*, Space> far_key;  ///< of V pairs in the order of their operators
   Kokkos::View<const int*, Space> far_order, far_place;
-  DeviceLists<int, Space> x_list;
+  Lists<int, Space> x_list;
   DeviceNodes<Space> nodes;
   Field field;
   DeviceLevels<Space, Real> levels;

@@ -186,15 +186,16 @@ void run_l2l(const Space& space, const Passes<Space, Real, Field>& passes, const
 }  // namespace
 
 template <class Space, class Real, class Field>
-void compute_coefficients_by_teams(const Space& space, const DeviceOctree<Space>& tree, const DeviceNodes<Space>& nodes,
-                                   const Field& field, const DeviceLevels<Space, Real>& levels,
+void compute_coefficients_by_teams(const Space& space, const Octree<Space>& tree, const FarOrder<Space>& far,
+                                   const DeviceNodes<Space>& nodes, const Field& field,
+                                   const DeviceLevels<Space, Real>& levels,
                                    const DeviceCoefficients<Space, Real>& coefficients, const int team_size) {
   Kokkos::deep_copy(space, coefficients.source, Real(0));
   Kokkos::deep_copy(space, coefficients.target, Real(0));
   if (tree.n_levels() <= first_far_level) return;
-  const Passes<Space, Real, Field> passes{tree.cube,      tree.boxes,     tree.v_list, tree.far.key,
-                                          tree.far.order, tree.far_place, tree.x_list, nodes,
-                                          field,          levels,         coefficients};
+  const Passes<Space, Real, Field> passes{tree.cube,       tree.boxes, tree.v_list, far.pairs.key,
+                                          far.pairs.order, far.place,  tree.x_list, nodes,
+                                          field,           levels,     coefficients};
   const int first = tree.level(first_far_level).first;
   const IndexRange boxes{first, tree.n_boxes() - first};
   run_p2m(space, passes, boxes, team_size);
@@ -206,10 +207,10 @@ void compute_coefficients_by_teams(const Space& space, const DeviceOctree<Space>
     run_l2l(space, passes, tree.level(level), team_size);
 }
 
-#define SKEIN_INSTANTIATE_FOR(S, Real, Field)                                                                          \
-  template void compute_coefficients_by_teams<S, Real, Field>(const S&, const DeviceOctree<S>&, const DeviceNodes<S>&, \
-                                                              const Field&, const DeviceLevels<S, Real>&,              \
-                                                              const DeviceCoefficients<S, Real>&, int);
+#define SKEIN_INSTANTIATE_FOR(S, Real, Field)                                              \
+  template void compute_coefficients_by_teams<S, Real, Field>(                             \
+      const S&, const Octree<S>&, const FarOrder<S>&, const DeviceNodes<S>&, const Field&, \
+      const DeviceLevels<S, Real>&, const DeviceCoefficients<S, Real>&, int);
 #define SKEIN_INSTANTIATE(S)                         \
   SKEIN_INSTANTIATE_FOR(S, double, HarmonicField)    \
   SKEIN_INSTANTIATE_FOR(S, float, HarmonicField)     \

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "fmm/device_teams.hpp"
+#include "fmm/tree_tasks.hpp"
 
 namespace skein {
 
@@ -17,14 +18,18 @@ struct DeviceCoefficients {
 /// order of every sum is that of the lists.
 /// @param team_size  0: as Kokkos likes; the result does not depend on it
 template <class Space, class Real, class Field>
-void compute_coefficients_by_teams(const Space& space, const DeviceOctree<Space>& tree, const DeviceNodes<Space>& nodes,
-                                   const Field& field, const DeviceLevels<Space, Real>& levels,
+void compute_coefficients_by_teams(const Space& space, const Octree<Space>& tree, const FarOrder<Space>& far,
+                                   const DeviceNodes<Space>& nodes, const Field& field,
+                                   const DeviceLevels<Space, Real>& levels,
                                    const DeviceCoefficients<Space, Real>& coefficients, int team_size);
+
+inline constexpr int part_targets = 128;  ///< of a leaf, that a team takes at once
 
 /// velocity(original index) = near field + far field of the coefficients, a team for every part of a leaf.
 template <class Space, class Near, class Real, class Field>
-void sum_leaf_velocities_by_teams(const Space& space, const DeviceOctree<Space>& tree, const DeviceNodes<Space>& nodes,
-                                  const Field& field, const DeviceLevels<Space, Real>& levels,
+void sum_leaf_velocities_by_teams(const Space& space, const Octree<Space>& tree, const LeafParts<Space>& parts,
+                                  const DeviceNodes<Space>& nodes, const Field& field,
+                                  const DeviceLevels<Space, Real>& levels,
                                   const DeviceCoefficients<Space, Real>& coefficients,
                                   const VectorView<Space>& velocity, int team_size);
 

@@ -74,11 +74,12 @@ template <class Near, class Real, class Field>
 void FmmEvaluator::add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
                               const Coefficients<Real>& coefficients) {
   if (!is_symmetric_) {
-    add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, {tree_.u_list(), {}}, tasks_,
-                                           own_velocity_);
+    const NearField near{tree_.u_list.entries.data(), tree_.u_list.first.data(), tree_.near_end.data(), {}};
+    add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, near, tasks_, own_velocity_);
     return;
   }
   if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree_, ranks_ == nullptr ? nullptr : &shares_);
+  if (ranks_ != nullptr) tree_.drop_touching();
   const int n_packed = near_matches_.n_packed();
   if (near_velocity_.extent_int(0) != 3 * n_packed)
     near_velocity_ =
@@ -88,9 +89,10 @@ void FmmEvaluator::add_leaves(const Field& field, const std::vector<const Operat
     single_near_tiles_.compute(sorted_, near_matches_, near_velocity_);
   else
     near_tiles_.compute(sorted_, near_matches_, near_velocity_);
-  add_leaf_velocities<Near, Real, Field>(
-      tree_, sorted_, field, levels, coefficients,
-      {tree_.one_way_sources(), near_velocity_, n_packed, near_matches_.leaf_first.data()}, tasks_, own_velocity_);
+  const int* first = near_matches_.one_way.first.data();
+  const NearField near{near_matches_.one_way.entries.data(), first, first + 1, near_velocity_, n_packed,
+                       near_matches_.leaf_first.data()};
+  add_leaf_velocities<Near, Real, Field>(tree_, sorted_, field, levels, coefficients, near, tasks_, own_velocity_);
 }
 
 template <class Real, class Field>
@@ -101,7 +103,8 @@ void FmmEvaluator::pass(const FmmPlan& plan, const Field& field, const std::vect
   for (const auto* level : levels)
     if (level != nullptr) coefficients.stride = math::larger(coefficients.stride, level->rank_padded);
   coefficients.box_size = Field::n_columns * coefficients.stride;
-  const std::size_t needed = tree_.boxes().size() * static_cast<std::size_t>(coefficients.box_size);
+  const std::size_t needed =
+      static_cast<std::size_t>(tree_.n_boxes()) * static_cast<std::size_t>(coefficients.box_size);
   if (coefficients.source.extent(0) < needed) {
     coefficients.source = {};  // before the new ones are allocated
     coefficients.target = {};
@@ -135,8 +138,8 @@ void FmmEvaluator::add_in(const FmmOptions& options, const FmmPlan& plan, Operat
 }
 
 void FmmEvaluator::require_tree(const OctreeRules& rules) {
-  if (keeping_.may_serve(rules) && tree_.still_fits(nodes_.position, nodes_.target)) return;
-  tree_.build(nodes_.position, nodes_.target, rules);
+  if (keeping_.may_serve(rules) && tree_.still_fits(HostSpace(), nodes_.position, nodes_.target)) return;
+  tree_.build(HostSpace(), nodes_.position, nodes_.target, rules);
   if (ranks_ != nullptr) tree_.drop_keys();
   keeping_.note_new_tree(rules);
   ++statistics.n_trees;
@@ -147,22 +150,15 @@ void FmmEvaluator::require_tree(const OctreeRules& rules) {
 }
 
 void FmmEvaluator::count_work() {
-  statistics.n_boxes = static_cast<int>(tree_.boxes().size());
+  statistics.n_boxes = tree_.n_boxes();
   statistics.n_levels = tree_.n_levels();
-  statistics.n_leaves = static_cast<int>(tree_.target_leaves().size());
+  statistics.n_leaves = tree_.n_target_leaves;
   statistics.smallest_half_width = tree_.half_width(tree_.n_levels() - 1);
-  statistics.work.n_sources = static_cast<double>(tree_.source_order().extent(0));
-  statistics.work.n_targets = static_cast<double>(tree_.target_order().extent(0));
-  statistics.work.n_boxes = static_cast<double>(tree_.boxes().size());
-  statistics.work.far_pairs = static_cast<double>(tree_.v_list().entries.size());
-  statistics.work.near_pairs = 0.0;
-  for (int leaf = 0; leaf < statistics.n_leaves; ++leaf) {
-    double n_sources = 0.0;
-    for (const IndexRange* run = tree_.u_list().begin(leaf); run != tree_.u_list().end(leaf); ++run)
-      n_sources += run->count;
-    const auto box = static_cast<std::size_t>(tree_.target_leaves()[static_cast<std::size_t>(leaf)]);
-    statistics.work.near_pairs += n_sources * tree_.boxes()[box].targets.count;
-  }
+  statistics.work.n_sources = static_cast<double>(tree_.n_sources);
+  statistics.work.n_targets = static_cast<double>(tree_.n_targets);
+  statistics.work.n_boxes = static_cast<double>(tree_.n_boxes());
+  statistics.work.far_pairs = static_cast<double>(tree_.v_list.n_entries);
+  statistics.work.near_pairs = tree_.n_near_pairs;
 }
 
 double FmmEvaluator::node_bytes() const {
@@ -180,10 +176,10 @@ bool FmmEvaluator::compute(const FmmOptions& options, const FmmPlan& chosen, con
   LapTimer watch;
   FmmPlan plan = chosen;
   require_tree(make_octree_rules(options, plan));
-  settle_plan(options, blobs_, tree_.largest_leaf(), plan);
+  settle_plan(options, blobs_, tree_.largest_leaf, plan);
   statistics.plan = plan;
   statistics.tree_seconds = watch.lap();
-  is_symmetric_ = tree_.has_same_nodes() && blobs_.smallest == blobs_.largest;
+  is_symmetric_ = tree_.same_nodes && blobs_.smallest == blobs_.largest;
   if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_, options) > 1.0)
     return false;
   if (own_velocity_.extent(0) == nodes_.target.extent(0))

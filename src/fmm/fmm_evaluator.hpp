@@ -54,7 +54,7 @@ class FmmEvaluator final : public FmmSum {
   HostNodes nodes_;
   BlobRange blobs_{0.0, 0.0};
   HostVectors own_velocity_;
-  Octree tree_;
+  HostOctree tree_;
   TreeKeeping keeping_;
   SortedNodes sorted_;
   bool is_symmetric_ = false;  ///< sources are targets, with one blob

@@ -81,13 +81,13 @@ void add_near_tile(const LeafTargets<Real>& targets, const int first, const Near
 
 /// U: every source of the runs, directly.
 template <class Real>
-void add_near_field(const SortedNodes& nodes, const IndexRange* runs, const IndexRange* last_run, const Vec3 center,
+void add_near_field(const SortedNodes& nodes, const std::span<const IndexRange> runs, const Vec3 center,
                     const LeafTargets<Real>& targets, LeafSum& sum) {
   constexpr int width = simd::width<Real>;
   NearTile<Real> sources;
-  for (; runs != last_run; ++runs)
-    for (int s = 0; s < runs->count; s += near_tile) {
-      sources.load(nodes, runs->first + s, math::smaller(near_tile, runs->count - s), center);
+  for (const IndexRange& run : runs)
+    for (int s = 0; s < run.count; s += near_tile) {
+      sources.load(nodes, run.first + s, math::smaller(near_tile, run.count - s), center);
       int first = 0;
       for (; first + 2 * width <= targets.n_padded(); first += 2 * width)
         add_near_tile<2>(targets, first, sources, sum);
@@ -129,10 +129,10 @@ void add_surface_velocity(const Field& field, const OperatorSet<Real>& operators
 
 }  // namespace
 
-std::vector<TargetTask> make_target_tasks(const Octree& tree) {
+std::vector<TargetTask> make_target_tasks(const HostOctree& tree) {
   std::vector<TargetTask> tasks;
-  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
-    const IndexRange targets = tree.box(tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets;
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) {
+    const IndexRange targets = tree.target_leaf(leaf).targets;
     for (int i = 0; i < targets.count; i += task_targets)
       tasks.push_back({leaf, {targets.first + i, math::smaller(task_targets, targets.count - i)}});
   }
@@ -140,14 +140,14 @@ std::vector<TargetTask> make_target_tasks(const Octree& tree) {
 }
 
 template <class Near, class Real, class Field>
-void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void add_leaf_velocities(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
                          const NearField& near, const std::vector<TargetTask>& tasks, const HostVectors& velocity) {
   const auto add = [&](const int t) {
     const TargetTask task = tasks[static_cast<std::size_t>(t)];
-    const int b = tree.target_leaves()[static_cast<std::size_t>(task.leaf)];
+    const int b = tree.target_leaves(task.leaf);
     const Box& box = tree.box(b);
-    const Vec3 center = tree.center(box);
+    const Vec3 center = tree.cube.center(box);
     LeafSum sum = {};
     if (near.velocity.extent(0) > 0)
       for (int c = 0; c < 3; ++c) {
@@ -155,13 +155,14 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
                                                 near.leaf_first[task.leaf] + task.targets.first - box.targets.first);
         for (int i = 0; i < task.targets.count; ++i) sum.velocity[c][i] = velocity[i];
       }
-    if (near.sources.size(task.leaf) > 0) {
+    const std::span<const IndexRange> runs = near.of_leaf(task.leaf);
+    if (!runs.empty()) {
       LeafTargets<Near> targets;
       targets.load(nodes.target, task.targets, center, 1.0);
-      add_near_field<Near>(nodes, near.sources.begin(task.leaf), near.sources.end(task.leaf), center, targets, sum);
+      add_near_field<Near>(nodes, runs, center, targets, sum);
     }
     const bool has_far = box.level >= first_far_level;
-    if (has_far || tree.w_list().size(task.leaf) > 0) {
+    if (has_far || !tree.w_list.of(task.leaf).empty()) {
       const int level = math::larger(box.level, first_far_level);
       const auto& operators = *levels[static_cast<std::size_t>(level)];
       LeafTargets<Real> targets;
@@ -173,13 +174,13 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
                              coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size,
                              coefficients.stride, outer_surface, half_width, targets, density.get(), sum);
       }
-      for (const int* w = tree.w_list().begin(task.leaf); w != tree.w_list().end(task.leaf); ++w) {
-        const Box& fine = tree.box(*w);
+      for (const int w : tree.w_list.of(task.leaf)) {
+        const Box& fine = tree.box(w);
         const auto& fine_operators = *levels[static_cast<std::size_t>(fine.level)];
         const double half_width = tree.half_width(fine.level);
-        targets.load(nodes.target, task.targets, tree.center(fine), half_width);
+        targets.load(nodes.target, task.targets, tree.cube.center(fine), half_width);
         add_surface_velocity(field.at(half_width), fine_operators, fine_operators.source_density,
-                             coefficients.source.data() + static_cast<std::ptrdiff_t>(*w) * coefficients.box_size,
+                             coefficients.source.data() + static_cast<std::ptrdiff_t>(w) * coefficients.box_size,
                              coefficients.stride, inner_surface, half_width, targets, density.get(), sum);
       }
     }
@@ -193,9 +194,9 @@ void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Fie
       add);
 }
 
-#define SKEIN_INSTANTIATE(Near, Real, Field)                                                         \
-  template void add_leaf_velocities<Near, Real, Field>(                                              \
-      const Octree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
+#define SKEIN_INSTANTIATE(Near, Real, Field)                                                             \
+  template void add_leaf_velocities<Near, Real, Field>(                                                  \
+      const HostOctree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
       const Coefficients<Real>&, const NearField&, const std::vector<TargetTask>&, const HostVectors&);
 #define SKEIN_INSTANTIATE_FIELD(Field)     \
   SKEIN_INSTANTIATE(double, double, Field) \

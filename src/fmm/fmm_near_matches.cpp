@@ -1,5 +1,6 @@
 #include "fmm/fmm_near_matches.hpp"
 
+#include "fmm/octree_walk.hpp"
 #include "kernels/stokeslet_exchange.hpp"
 
 #include <algorithm>
@@ -24,15 +25,65 @@ std::uint64_t place_of(const Match& match) {
   return (2 * distance + half) << 31 | one;
 }
 
+/// Leaves that do not touch meet across W and X lists, where both are leaves in both directions or in none: a small box
+/// that is not a leaf gets an expansion from those it sends sources to.
+struct PartnerSinks {
+  int leaf = 0;
+  EntrySink<int> partners;  ///< from itself on
+  EntrySink<IndexRange> one_way;
+  void near(const int b, const Box& box) {
+    if (!box.is_leaf())
+      one_way.add(box.sources);
+    else if (b >= leaf)
+      partners.add(b);
+  }
+  void fine(int /*b*/) const {}
+};
+
+template <class Entry>
+void place(Lists<Entry, HostSpace>& lists, const int n, const char* label) {
+  lists.n_entries = scan_counts(HostSpace(), lists.first, 0, n, 0);
+  require_extent(lists.entries, static_cast<std::size_t>(lists.n_entries), label);
+}
+
+/// Per target leaf the boxes that are leaves and exchange velocities with it, and what it only receives.
+void list_partners(const HostOctree& tree, Lists<int, HostSpace>& partners, Lists<IndexRange, HostSpace>& one_way) {
+  const int n_leaves = tree.n_target_leaves;
+  require_extent(partners.first, static_cast<std::size_t>(n_leaves) + 1, "skein::near_matches::partners_first");
+  require_extent(one_way.first, static_cast<std::size_t>(n_leaves) + 1, "skein::near_matches::one_way_first");
+  const ListSource<HostSpace> from(tree);
+  for (const bool fills : {false, true}) {
+    Kokkos::parallel_for("skein::list_partners", Kokkos::RangePolicy<HostSpace>(HostSpace(), 0, n_leaves),
+                         [&](const int leaf) {
+                           PartnerSinks sinks{tree.target_leaves(leaf), {}, {}};
+                           if (fills) {
+                             sinks.partners.to = partners.entries.data() + partners.first(leaf);
+                             sinks.one_way.to = one_way.entries.data() + one_way.first(leaf);
+                           }
+                           visit_near(from, sinks.leaf, tree.rules.min_sources_for_expansion, sinks);
+                           if (fills) return;
+                           partners.first(leaf) = sinks.partners.n;
+                           one_way.first(leaf) = sinks.one_way.n;
+                         });
+    if (fills) continue;
+    place(partners, n_leaves, "skein::near_matches::partners");
+    place(one_way, n_leaves, "skein::near_matches::one_way");
+  }
+}
+
 }  // namespace
 
-NearMatches make_near_matches(const Octree& tree, const RankShares* shares) {
+NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares) {
   NearMatches near;
-  const int n_leaves = static_cast<int>(tree.target_leaves().size());
+  const int n_leaves = tree.n_target_leaves;
+  Lists<int, HostSpace> partners;
+  list_partners(tree, partners, near.one_way);
+  std::vector<int> place_of_box(static_cast<std::size_t>(tree.n_boxes()));  // among the leaves with targets
   std::vector<int> first_tile;
-  for (const int leaf : tree.target_leaves()) {
+  for (int leaf = 0; leaf < n_leaves; ++leaf) {
+    place_of_box[static_cast<std::size_t>(tree.target_leaves(leaf))] = leaf;
     first_tile.push_back(static_cast<int>(near.tiles.size()));
-    cut_leaf(tree.boxes()[static_cast<std::size_t>(leaf)].sources, near.tiles);
+    cut_leaf(tree.target_leaf(leaf).sources, near.tiles);
   }
   first_tile.push_back(static_cast<int>(near.tiles.size()));
   const auto tiles_of = [&](const int leaf) {
@@ -44,11 +95,12 @@ NearMatches make_near_matches(const Octree& tree, const RankShares* shares) {
   };
   for (int leaf = 0; leaf < n_leaves; ++leaf) {
     const IndexRange own = tiles_of(leaf);
-    for (const int* partner = tree.near_partners().begin(leaf); partner != tree.near_partners().end(leaf); ++partner) {
-      const IndexRange others = tiles_of(*partner);
+    for (const int box : partners.of(leaf)) {
+      const int partner = place_of_box[static_cast<std::size_t>(box)];
+      const IndexRange others = tiles_of(partner);
       if (!is_own(own.first) && !is_own(others.first)) continue;
       for (int i = own.first; i < own.first + own.count; ++i)
-        for (int j = *partner == leaf ? i : others.first; j < others.first + others.count; ++j)
+        for (int j = partner == leaf ? i : others.first; j < others.first + others.count; ++j)
           near.matches.push_back({i, j});
     }
   }

@@ -19,6 +19,8 @@ struct NearMatches {
   std::vector<int> leaf_first;    ///< per target leaf its first place in the packed order
 
   std::vector<int> met;  ///< tiles that are in a match
+  Lists<IndexRange, HostSpace>
+      one_way;  ///< per target leaf: sources in boxes that are not leaves, which it only receives from
 
   int n_packed() const { return packed_first.back(); }
 };
@@ -26,6 +28,6 @@ struct NearMatches {
 /// @param tree    of nodes that are sources and targets alike
 /// @param shares  only matches in which a tile has targets of this rank, in the same order; such tiles receive all they
 ///                would of all matches. Null: all
-NearMatches make_near_matches(const Octree& tree, const RankShares* shares = nullptr);
+NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares = nullptr);
 
 }  // namespace skein

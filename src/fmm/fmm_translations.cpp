@@ -19,7 +19,7 @@ const OperatorSet<Real>& operators_of(const std::vector<const OperatorSet<Real>*
 
 /// Sources of leaves to their coefficients (P2M); zero for other boxes.
 template <class Real, class Field>
-void run_p2m(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void run_p2m(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
              const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
              const IndexRange boxes) {
   for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
@@ -32,8 +32,8 @@ void run_p2m(const Octree& tree, const SortedNodes& nodes, const Field& field,
     const HostScratch<Real> potential(n_values);
     std::fill(potential.get(), potential.get() + n_values, Real(0));
     const double half_width = tree.half_width(box.level);
-    add_run_potentials(nodes, box.sources, tree.center(box), half_width, field.at(half_width), operators, outer_surface,
-                       potential.get());
+    add_run_potentials(nodes, box.sources, tree.cube.center(box), half_width, field.at(half_width), operators,
+                       outer_surface, potential.get());
     operators.to_source.apply(potential.get(), operators.to_source.n_columns, Field::n_columns, own,
                               coefficients.stride);
   }
@@ -43,14 +43,14 @@ void run_p2m(const Octree& tree, const SortedNodes& nodes, const Field& field,
 /// boxes of each level stand together, and branches do not meet, so that one parallel loop over branches does all their
 /// levels; the few boxes above are left to one thread. Which level it is changes no result.
 struct Branches {
-  explicit Branches(const Octree& tree) : level(first_far_level) {
+  explicit Branches(const HostOctree& tree) : level(first_far_level) {
     const int wanted = 8 * HostSpace().concurrency();
     for (int l = first_far_level; l < tree.n_levels() && tree.level(level).count < wanted; ++l)
       if (tree.level(l).count > tree.level(level).count) level = l;
     roots = tree.level(level);
   }
   /// The boxes of a branch, level by level.
-  static std::vector<IndexRange> boxes_of(const Octree& tree, const int root) {
+  static std::vector<IndexRange> boxes_of(const HostOctree& tree, const int root) {
     std::vector<IndexRange> runs = {{root, 1}};
     while (true) {
       IndexRange below;
@@ -71,7 +71,7 @@ struct Branches {
 
 /// Children to parents of one level (M2M).
 template <class Real, class Field>
-void run_m2m(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+void run_m2m(const HostOctree& tree, const std::vector<const OperatorSet<Real>*>& levels,
              const Coefficients<Real>& coefficients, const int level, const IndexRange parents) {
   if (level + 1 >= tree.n_levels()) return;
   const auto& own = operators_of(levels, level);
@@ -99,7 +99,7 @@ void run_m2m(const Octree& tree, const std::vector<const OperatorSet<Real>*>& le
 
 /// P2M and M2M of all boxes.
 template <class Real, class Field>
-void compute_source_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void compute_source_coefficients(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                                  const std::vector<const OperatorSet<Real>*>& levels,
                                  const Coefficients<Real>& coefficients) {
   const Branches branches(tree);
@@ -119,20 +119,18 @@ void compute_source_coefficients(const Octree& tree, const SortedNodes& nodes, c
 }
 
 /// Boxes whose V lists make one task: of one level. @param boxes_of_level  that are to be in a task
-std::vector<IndexRange> make_transfer_tasks(const Octree& tree, const std::vector<IndexRange>& boxes_of_level) {
+std::vector<IndexRange> make_transfer_tasks(const HostOctree& tree, const std::vector<IndexRange>& boxes_of_level) {
   constexpr int min_pairs = 48, max_boxes = 64;
+  const auto& first_pair = tree.v_list.first;
   std::vector<IndexRange> tasks;
   for (int level = first_far_level; level < tree.n_levels(); ++level) {
     const IndexRange boxes = boxes_of_level[static_cast<std::size_t>(level)];
     IndexRange task{boxes.first, 0};
     int n_pairs = 0;
-    const int enough =
-        math::larger(min_pairs, (tree.v_list().first[static_cast<std::size_t>(boxes.first + boxes.count)] -
-                                 tree.v_list().first[static_cast<std::size_t>(boxes.first)]) /
-                                    16);
+    const int enough = math::larger(min_pairs, (first_pair(boxes.first + boxes.count) - first_pair(boxes.first)) / 16);
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
       ++task.count;
-      n_pairs += tree.v_list().size(b);
+      n_pairs += first_pair(b + 1) - first_pair(b);
       if (n_pairs >= enough || task.count == max_boxes) {
         tasks.push_back(task);
         task = {b + 1, 0};
@@ -146,7 +144,7 @@ std::vector<IndexRange> make_transfer_tasks(const Octree& tree, const std::vecto
 
 /// Across the V lists (M2L) and from the sources of X lists (P2L); overwrites the coefficients for targets.
 template <class Real, class Field>
-void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void run_m2l_and_p2l(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                      const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
                      const std::vector<IndexRange>& boxes_of_level) {
   const std::vector<IndexRange> tasks = make_transfer_tasks(tree, boxes_of_level);
@@ -159,8 +157,8 @@ void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& 
     std::fill(all + boxes.first * size, all + (boxes.first + boxes.count) * size, Real(0));
 
     // Pairs in the order of their transfer vectors, and of the lists among equals.
-    const FarPair* const pairs = tree.v_list().begin(boxes.first);
-    const int n_pairs = static_cast<int>(tree.v_list().end(boxes.first + boxes.count - 1) - pairs);
+    const FarPair* const pairs = tree.v_list.of(boxes.first).data();
+    const int n_pairs = tree.v_list.first(boxes.first + boxes.count) - tree.v_list.first(boxes.first);
     int place[n_transfers + 1] = {};
     for (int k = 0; k < n_pairs; ++k) ++place[transfer_index(pairs[k].transfer) + 1];
     for (int index = 0; index < n_transfers; ++index) place[index + 1] += place[index];
@@ -184,13 +182,13 @@ void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& 
     }
 
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
-      if (tree.x_list().size(b) == 0) continue;
+      if (tree.x_list.of(b).empty()) continue;
       const double half_width = tree.half_width(level);
       const int n_values = Field::n_planes * operators.n_padded;
       const HostScratch<Real> potential(n_values), sum(static_cast<int>(size));
       std::fill(potential.get(), potential.get() + n_values, Real(0));
-      for (const int* a = tree.x_list().begin(b); a != tree.x_list().end(b); ++a)
-        add_run_potentials(nodes, tree.box(*a).sources, tree.center(tree.box(b)), half_width, field.at(half_width),
+      for (const int a : tree.x_list.of(b))
+        add_run_potentials(nodes, tree.box(a).sources, tree.cube.center(tree.box(b)), half_width, field.at(half_width),
                            operators, inner_surface, potential.get());
       operators.to_target.apply(potential.get(), operators.to_target.n_columns, Field::n_columns, sum.get(),
                                 coefficients.stride);
@@ -203,7 +201,7 @@ void run_m2l_and_p2l(const Octree& tree, const SortedNodes& nodes, const Field& 
 
 /// Parents to children of one level (L2L).
 template <class Real, class Field>
-void run_l2l(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+void run_l2l(const HostOctree& tree, const std::vector<const OperatorSet<Real>*>& levels,
              const Coefficients<Real>& coefficients, const int level, const IndexRange boxes) {
   const auto& own = operators_of(levels, level);
   const auto& above = operators_of(levels, level - 1);
@@ -224,7 +222,7 @@ void run_l2l(const Octree& tree, const std::vector<const OperatorSet<Real>*>& le
 }
 
 template <class Real, class Field>
-void run_l2l_of_all_levels(const Octree& tree, const std::vector<const OperatorSet<Real>*>& levels,
+void run_l2l_of_all_levels(const HostOctree& tree, const std::vector<const OperatorSet<Real>*>& levels,
                            const Coefficients<Real>& coefficients) {
   const Branches branches(tree);
   for (int level = first_far_level + 1; level <= branches.level; ++level)
@@ -251,7 +249,7 @@ void for_chunks(const std::string& label, const IndexRange boxes, const Use& use
 }  // namespace
 
 template <class Real, class Field>
-void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void compute_coefficients(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                           const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients) {
   if (tree.n_levels() <= first_far_level) return;
   compute_source_coefficients<Real, Field>(tree, nodes, field, levels, coefficients);
@@ -263,7 +261,7 @@ void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Fi
 
 // Level by level: branches end somewhere between ranks.
 template <class Real, class Field>
-void compute_shared_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void compute_shared_coefficients(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                                  const std::vector<const OperatorSet<Real>*>& levels,
                                  const Coefficients<Real>& coefficients, const RankShares& shares,
                                  const std::function<void()>& exchange) {
@@ -285,12 +283,12 @@ void compute_shared_coefficients(const Octree& tree, const SortedNodes& nodes, c
                [&](const IndexRange boxes) { run_l2l<Real, Field>(tree, levels, coefficients, level, boxes); });
 }
 
-#define SKEIN_INSTANTIATE(Real, Field)                                                               \
-  template void compute_coefficients<Real, Field>(const Octree&, const SortedNodes&, const Field&,   \
-                                                  const std::vector<const OperatorSet<Real>*>&,      \
-                                                  const Coefficients<Real>&);                        \
-  template void compute_shared_coefficients<Real, Field>(                                            \
-      const Octree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
+#define SKEIN_INSTANTIATE(Real, Field)                                                                   \
+  template void compute_coefficients<Real, Field>(const HostOctree&, const SortedNodes&, const Field&,   \
+                                                  const std::vector<const OperatorSet<Real>*>&,          \
+                                                  const Coefficients<Real>&);                            \
+  template void compute_shared_coefficients<Real, Field>(                                                \
+      const HostOctree&, const SortedNodes&, const Field&, const std::vector<const OperatorSet<Real>*>&, \
       const Coefficients<Real>&, const RankShares&, const std::function<void()>&);
 SKEIN_INSTANTIATE(double, HarmonicField)
 SKEIN_INSTANTIATE(float, HarmonicField)

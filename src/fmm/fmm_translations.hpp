@@ -19,14 +19,14 @@ struct SortedNodes {
 
 /// Targets of one leaf, or some of them where it has many: one task of the near field.
 struct TargetTask {
-  int leaf = 0;  ///< index in Octree::target_leaves
+  int leaf = 0;  ///< index in HostOctree::target_leaves
   IndexRange targets;
 };
 
 inline constexpr int task_targets = 256;
 
 /// Cuts the leaves' targets into tasks.
-std::vector<TargetTask> make_target_tasks(const Octree& tree);
+std::vector<TargetTask> make_target_tasks(const HostOctree& tree);
 
 /// Coefficients of all boxes: [n_boxes][n_columns][stride].
 template <class Real>
@@ -40,28 +40,31 @@ struct Coefficients {
 /// every box's sum belongs to one task.
 /// @param levels  the operators of each level of the tree
 template <class Real, class Field>
-void compute_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void compute_coefficients(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                           const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients);
 
 /// One rank's part of them: up from its own sources, then what others need, by `exchange`, then across and down to its
 /// own targets. Boxes that this rank has no use for stay as they are.
 template <class Real, class Field>
-void compute_shared_coefficients(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void compute_shared_coefficients(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                                  const std::vector<const OperatorSet<Real>*>& levels,
                                  const Coefficients<Real>& coefficients, const RankShares& shares,
                                  const std::function<void()>& exchange);
 
 /// The near field of the leaves' targets: what is there already, and what is still to be summed.
 struct NearField {
-  const ListOfLists<IndexRange>& sources;  ///< per target leaf
-  HostScalars velocity;                    ///< [3][n_packed] in the packed order of NearMatches, or empty
+  const IndexRange* runs;  ///< of sources, per target leaf runs[first[leaf]] .. runs[end[leaf] - 1]
+  const int *first, *end;
+  HostScalars velocity;  ///< [3][n_packed] in the packed order of NearMatches, or empty
   int n_packed = 0;
   const int* leaf_first = nullptr;  ///< per target leaf its first place in the packed order
+
+  std::span<const IndexRange> of_leaf(const int leaf) const { return {runs + first[leaf], runs + end[leaf]}; }
 };
 
 /// velocity(original index) += near field + far field of the coefficients, leaf by leaf.
 template <class Near, class Real, class Field>
-void add_leaf_velocities(const Octree& tree, const SortedNodes& nodes, const Field& field,
+void add_leaf_velocities(const HostOctree& tree, const SortedNodes& nodes, const Field& field,
                          const std::vector<const OperatorSet<Real>*>& levels, const Coefficients<Real>& coefficients,
                          const NearField& near, const std::vector<TargetTask>& tasks, const HostVectors& velocity);
 

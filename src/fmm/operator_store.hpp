@@ -15,7 +15,7 @@ template <class Real>
 class OperatorStore {
  public:
   /// The operators of every level of the tree, complete for its lists.
-  /// @param tree  an Octree or a DeviceOctree
+  /// @param tree  an Octree or a Octree
   template <class Tree>
   std::vector<const OperatorSet<Real>*> require(const FarField far_field, const FmmPlan& plan, const double blob,
                                                 const Tree& tree) {

@@ -12,7 +12,7 @@ void FmmEvaluator::require_shares(const FmmPlan& plan) {
   if (has_shares_) return;
   shares_ = share_tree(tree_, plan, is_symmetric_, ranks_->rank(), ranks_->size());
   has_shares_ = true;
-  tree_.drop_far_pairs_but(shares_.target_boxes);
+  drop_far_pairs_but(shares_.target_boxes, tree_);
   const auto is_foreign = [&](const TargetTask& task) { return !shares_.has_target(task.targets.first); };
   tasks_.erase(std::remove_if(tasks_.begin(), tasks_.end(), is_foreign), tasks_.end());
 }
@@ -60,7 +60,7 @@ void FmmEvaluator::gather_velocities() {
   if (ranks_->rank() == 0) receive_.resize(parts.total());
   ranks_->gather(send_.data(), parts, receive_.data());
   if (ranks_->rank() != 0) return;
-  for (int i = own.first + own.count; i < order.extent_int(0); ++i)
+  for (int i = own.first + own.count; i < tree_.n_targets; ++i)
     for (int c = 0; c < 3; ++c)
       own_velocity_(order(i), c) = receive_[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(c)];
 }

@@ -3,6 +3,7 @@
 #include "fmm/fmm_operator_set.hpp"
 
 #include <algorithm>
+#include <string>
 
 namespace skein {
 namespace {
@@ -16,25 +17,24 @@ struct Piece {
   bool is_leaf = false;
 };
 
-std::vector<Piece> list_target_work(const Octree& tree, const FmmPlan& plan, const bool is_symmetric) {
+std::vector<Piece> list_target_work(const HostOctree& tree, const FmmPlan& plan, const bool is_symmetric) {
   std::vector<Piece> pieces;
   const auto note = [&](const Box& box, const int b, const double near_pairs) {
     FmmWork work;
     work.n_sources = box.is_leaf() ? box.sources.count : 0;
     work.n_targets = box.is_leaf() ? box.targets.count : 0;
     work.near_pairs = near_pairs;
-    work.far_pairs = tree.v_list().size(b);
+    work.far_pairs = static_cast<double>(tree.v_list.of(b).size());
     work.n_boxes = 1.0;
     pieces.push_back(
         {box.targets.first, estimate_nanoseconds(work, plan, is_symmetric, KernelPath::host), box.is_leaf()});
   };
-  for (int b = 0; b < static_cast<int>(tree.boxes().size()); ++b)
+  for (int b = 0; b < tree.n_boxes(); ++b)
     if (!tree.box(b).is_leaf() && tree.box(b).targets.count > 0) note(tree.box(b), b, 0.0);
-  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
-    const int b = tree.target_leaves()[static_cast<std::size_t>(leaf)];
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) {
+    const int b = tree.target_leaves(leaf);
     double n_sources = 0.0;
-    for (const IndexRange* run = tree.u_list().begin(leaf); run != tree.u_list().end(leaf); ++run)
-      n_sources += run->count;
+    for (const IndexRange& run : tree.near_runs(leaf)) n_sources += run.count;
     note(tree.box(b), b, n_sources * tree.box(b).targets.count);
   }
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
@@ -61,14 +61,16 @@ std::vector<int> cut(const std::vector<Piece>& pieces, const int n_places, const
   return edges;
 }
 
-std::vector<int> cut_sources(const Octree& tree, const int n_ranks) {
+std::vector<int> cut_sources(const HostOctree& tree, const int n_ranks) {
   std::vector<Piece> pieces;
-  for (const Box& box : tree.boxes())
+  for (int b = 0; b < tree.n_boxes(); ++b) {
+    const Box& box = tree.box(b);
     if (box.is_leaf() && box.sources.count > 0)
       pieces.push_back({box.sources.first, static_cast<double>(box.sources.count), true});
+  }
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
   double ignored = 1.0;
-  return cut(pieces, tree.source_order().extent_int(0), n_ranks, ignored);
+  return cut(pieces, tree.n_sources, n_ranks, ignored);
 }
 
 int rank_of(const std::vector<int>& first, const int place) {
@@ -76,9 +78,10 @@ int rank_of(const std::vector<int>& first, const int place) {
 }
 
 /// Of the sources of each box.
-std::vector<int> find_owners(const Octree& tree, const std::vector<int>& first_source) {
+std::vector<int> find_owners(const HostOctree& tree, const std::vector<int>& first_source) {
   std::vector<int> owners;
-  for (const Box& box : tree.boxes()) {
+  for (int b = 0; b < tree.n_boxes(); ++b) {
+    const Box& box = tree.box(b);
     const int last = box.sources.first + box.sources.count - 1;
     const int owner = box.sources.count == 0 ? nobody : rank_of(first_source, box.sources.first);
     owners.push_back(owner == nobody || owner == rank_of(first_source, last) ? owner : several);
@@ -95,9 +98,10 @@ void note_box(const int b, IndexRange& boxes) {
 /// Who needs whose coefficients: entry [rank][box].
 class Needs {
  public:
-  Needs(const Octree& tree, const RankShares& shares, const std::vector<int>& owners)
+  Needs(const HostOctree& tree, const RankShares& shares, const std::vector<int>& owners)
       : tree_(tree), shares_(shares), owners_(owners) {
-    needed_.assign(static_cast<std::size_t>(shares.n_ranks), std::vector<char>(tree.boxes().size()));
+    needed_.assign(static_cast<std::size_t>(shares.n_ranks),
+                   std::vector<char>(static_cast<std::size_t>(tree.n_boxes())));
   }
 
   /// Everything that the targets of a box need a source's box for.
@@ -116,7 +120,7 @@ class Needs {
   void list(RankShares& shares) const {
     shares.sent.resize(static_cast<std::size_t>(shares.n_ranks));
     shares.received.resize(static_cast<std::size_t>(shares.n_ranks));
-    for (int b = 0; b < static_cast<int>(tree_.boxes().size()); ++b) {
+    for (int b = 0; b < tree_.n_boxes(); ++b) {
       const int owner = owners_[static_cast<std::size_t>(b)];
       if (owner == shares.rank) {
         for (std::size_t rank = 0; rank < needed_.size(); ++rank)
@@ -128,23 +132,24 @@ class Needs {
   }
 
  private:
-  const Octree& tree_;
+  const HostOctree& tree_;
   const RankShares& shares_;
   const std::vector<int>& owners_;
   std::vector<std::vector<char>> needed_;
 };
 
 /// Sources of this rank, and all that its targets meet one by one.
-std::vector<IndexRange> find_source_runs(const Octree& tree, const RankShares& shares) {
+std::vector<IndexRange> find_source_runs(const HostOctree& tree, const RankShares& shares) {
   constexpr int piece = 4096;
-  std::vector<IndexRange> runs = {{0, math::smaller(1, tree.source_order().extent_int(0))}, shares.own_sources()};
-  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf)
-    if (shares.has_target(tree.box(tree.target_leaves()[static_cast<std::size_t>(leaf)]).targets.first))
-      runs.insert(runs.end(), tree.u_list().begin(leaf), tree.u_list().end(leaf));
+  std::vector<IndexRange> runs = {{0, math::smaller(1, tree.n_sources)}, shares.own_sources()};
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf)
+    if (shares.has_target(tree.target_leaf(leaf).targets.first)) {
+      const auto near = tree.near_runs(leaf);
+      runs.insert(runs.end(), near.begin(), near.end());
+    }
   for (const IndexRange& boxes : shares.target_boxes)
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b)
-      for (const int* coarse = tree.x_list().begin(b); coarse != tree.x_list().end(b); ++coarse)
-        runs.push_back(tree.box(*coarse).sources);
+      for (const int coarse : tree.x_list.of(b)) runs.push_back(tree.box(coarse).sources);
   std::sort(runs.begin(), runs.end(), [](const IndexRange a, const IndexRange b) { return a.first < b.first; });
   std::vector<IndexRange> pieces;
   int next = 0;
@@ -158,20 +163,19 @@ std::vector<IndexRange> find_source_runs(const Octree& tree, const RankShares& s
 
 }  // namespace
 
-RankShares share_tree(const Octree& tree, const FmmPlan& plan, const bool is_symmetric, const int rank,
+RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, const bool is_symmetric, const int rank,
                       const int n_ranks) {
   RankShares shares;
   shares.rank = rank;
   shares.n_ranks = n_ranks;
-  shares.first_target =
-      cut(list_target_work(tree, plan, is_symmetric), tree.target_order().extent_int(0), n_ranks, shares.balance);
-  shares.first_source = tree.has_same_nodes() ? shares.first_target : cut_sources(tree, n_ranks);
+  shares.first_target = cut(list_target_work(tree, plan, is_symmetric), tree.n_targets, n_ranks, shares.balance);
+  shares.first_source = tree.same_nodes ? shares.first_target : cut_sources(tree, n_ranks);
   const std::vector<int> owners = find_owners(tree, shares.first_source);
   shares.source_boxes.resize(static_cast<std::size_t>(tree.n_levels()));
   shares.target_boxes.resize(static_cast<std::size_t>(tree.n_levels()));
   Needs needs(tree, shares, owners);
   const IndexRange own = shares.own_targets();
-  for (int b = static_cast<int>(tree.boxes().size()) - 1; b >= 0; --b) {
+  for (int b = tree.n_boxes() - 1; b >= 0; --b) {
     const Box& box = tree.box(b);
     if (owners[static_cast<std::size_t>(b)] != several || box.level < first_far_level) continue;
     shares.boxes_of_all.push_back(b);
@@ -179,19 +183,17 @@ RankShares share_tree(const Octree& tree, const FmmPlan& plan, const bool is_sym
       for (int other = 0; other < n_ranks && owners[static_cast<std::size_t>(child)] >= 0; ++other)
         needs.note(other, owners[static_cast<std::size_t>(child)], child);
   }
-  for (int b = 0; b < static_cast<int>(tree.boxes().size()); ++b) {
+  for (int b = 0; b < tree.n_boxes(); ++b) {
     const Box& box = tree.box(b);
     const auto level = static_cast<std::size_t>(box.level);
     if (owners[static_cast<std::size_t>(b)] == rank) note_box(b, shares.source_boxes[level]);
     if (box.targets.count > 0 && box.targets.first < own.first + own.count &&
         box.targets.first + box.targets.count > own.first)
       note_box(b, shares.target_boxes[level]);
-    for (const FarPair* pair = tree.v_list().begin(b); pair != tree.v_list().end(b); ++pair)
-      needs.note(box, pair->source);
+    for (const FarPair& pair : tree.v_list.of(b)) needs.note(box, pair.source);
   }
-  for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
-    const Box& box = tree.box(tree.target_leaves()[static_cast<std::size_t>(leaf)]);
-    for (const int* fine = tree.w_list().begin(leaf); fine != tree.w_list().end(leaf); ++fine) needs.note(box, *fine);
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) {
+    for (const int fine : tree.w_list.of(leaf)) needs.note(tree.target_leaf(leaf), fine);
   }
   needs.list(shares);
   shares.source_runs = find_source_runs(tree, shares);
@@ -200,6 +202,27 @@ RankShares share_tree(const Octree& tree, const FmmPlan& plan, const bool is_sym
   for (const std::vector<int>& boxes : shares.received) shares.n_boxes += static_cast<double>(boxes.size());
   for (const IndexRange& boxes : shares.target_boxes) shares.n_boxes += boxes.count;
   return shares;
+}
+
+void drop_far_pairs_but(const std::vector<IndexRange>& boxes_of_level, HostOctree& tree) {
+  const auto is_kept = [&](const int b) {
+    const IndexRange boxes = boxes_of_level[static_cast<std::size_t>(tree.box(b).level)];
+    return b >= boxes.first && b < boxes.first + boxes.count;
+  };
+  Lists<FarPair, HostSpace> kept;
+  require_extent(kept.first, static_cast<std::size_t>(tree.n_boxes()) + 1, "skein::octree::v_first");
+  for (int b = 0; b < tree.n_boxes(); ++b) {
+    kept.first(b) = kept.n_entries;
+    kept.n_entries += is_kept(b) ? static_cast<int>(tree.v_list.of(b).size()) : 0;
+  }
+  kept.first(tree.n_boxes()) = kept.n_entries;
+  kept.entries = Kokkos::View<FarPair*, HostSpace>(std::string("skein::octree::list"), kept.n_entries);
+  for (int b = 0; b < tree.n_boxes(); ++b)
+    if (is_kept(b)) {
+      const auto pairs = tree.v_list.of(b);
+      std::copy(pairs.begin(), pairs.end(), kept.entries.data() + kept.first(b));
+    }
+  tree.v_list = kept;
 }
 
 }  // namespace skein

@@ -44,6 +44,9 @@ struct RankShares {
 };
 
 /// @param is_symmetric  the near field meets each pair once
-RankShares share_tree(const Octree& tree, const FmmPlan& plan, bool is_symmetric, int rank, int n_ranks);
+RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, bool is_symmetric, int rank, int n_ranks);
+
+/// Gives back the V lists of all boxes but those of each level. @param boxes_of_level  [n_levels]
+void drop_far_pairs_but(const std::vector<IndexRange>& boxes_of_level, HostOctree& tree);
 
 }  // namespace skein

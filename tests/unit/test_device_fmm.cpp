@@ -126,7 +126,7 @@ TEST(DeviceFmm, AgreesThroughEveryKindOfList) {
     options.tolerance = 1.0;
     options.leaf_size = 40;
     BothPaths(options).expect_agreement(from, {}, 5e-13, 2e-2);
-    DeviceOctree<ExecSpace> tree;
+    Octree<ExecSpace> tree;
     const Vectors nodes = to_device("nodes", from.position);
     tree.build(ExecSpace(), nodes, nodes, make_octree_rules(options, choose_fmm_plan(options, 1e-4, 0)));
     EXPECT_GT(tree.v_list.n_entries, 0);

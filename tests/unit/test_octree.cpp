@@ -25,7 +25,7 @@ OctreeRules rules_for(const int leaf_size, const double min_half_width, const in
 
 /// The near field of nodes that are sources and targets alike, as add(targets, sources).
 template <class Add>
-void visit_near_matches(const Octree& tree, const Add& add) {
+void visit_near_matches(const HostOctree& tree, const Add& add) {
   const NearMatches near = make_near_matches(tree);
   for (const Match& match : near.matches) {
     const IndexRange one = near.tiles[static_cast<std::size_t>(match.one)];
@@ -33,38 +33,30 @@ void visit_near_matches(const Octree& tree, const Add& add) {
     add(one, other);
     if (match.one != match.other) add(other, one);
   }
-  for (int l = 0; l < static_cast<int>(tree.target_leaves().size()); ++l) {
-    const IndexRange targets =
-        tree.boxes()[static_cast<std::size_t>(tree.target_leaves()[static_cast<std::size_t>(l)])].targets;
-    for (const IndexRange* run = tree.one_way_sources().begin(l); run != tree.one_way_sources().end(l); ++run)
-      add(targets, *run);
-  }
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf)
+    for (const IndexRange& run : near.one_way.of(leaf)) add(tree.target_leaf(leaf).targets, run);
 }
 
 /// How many times the lists count each pair of a target and a source; 1 everywhere is right.
-std::vector<int> count_pairs(const Octree& tree, const int n_targets, const int n_sources, const bool with_matches) {
+std::vector<int> count_pairs(const HostOctree& tree, const int n_targets, const int n_sources,
+                             const bool with_matches) {
   std::vector<int> count(static_cast<std::size_t>(n_targets) * static_cast<std::size_t>(n_sources));
-  const auto& boxes = tree.boxes();
   const auto add = [&](const IndexRange targets, const IndexRange sources) {
     for (int t = 0; t < targets.count; ++t)
       for (int s = 0; s < sources.count; ++s)
         ++count[static_cast<std::size_t>(tree.target_order()(targets.first + t)) * static_cast<std::size_t>(n_sources) +
                 static_cast<std::size_t>(tree.source_order()(sources.first + s))];
   };
-  for (std::size_t leaf = 0; leaf < tree.target_leaves().size(); ++leaf) {
-    const int l = static_cast<int>(leaf);
-    const IndexRange targets = boxes[static_cast<std::size_t>(tree.target_leaves()[leaf])].targets;
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) {
+    const IndexRange targets = tree.target_leaf(leaf).targets;
     if (!with_matches)
-      for (const IndexRange* run = tree.u_list().begin(l); run != tree.u_list().end(l); ++run) add(targets, *run);
-    for (const int* w = tree.w_list().begin(l); w != tree.w_list().end(l); ++w)
-      add(targets, boxes[static_cast<std::size_t>(*w)].sources);
+      for (const IndexRange& run : tree.near_runs(leaf)) add(targets, run);
+    for (const int w : tree.w_list.of(leaf)) add(targets, tree.box(w).sources);
   }
   if (with_matches) visit_near_matches(tree, add);
-  for (int b = 0; b < static_cast<int>(boxes.size()); ++b) {
-    for (const FarPair* pair = tree.v_list().begin(b); pair != tree.v_list().end(b); ++pair)
-      add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(pair->source)].sources);
-    for (const int* x = tree.x_list().begin(b); x != tree.x_list().end(b); ++x)
-      add(boxes[static_cast<std::size_t>(b)].targets, boxes[static_cast<std::size_t>(*x)].sources);
+  for (int b = 0; b < tree.n_boxes(); ++b) {
+    for (const FarPair& pair : tree.v_list.of(b)) add(tree.box(b).targets, tree.box(pair.source).sources);
+    for (const int x : tree.x_list.of(b)) add(tree.box(b).targets, tree.box(x).sources);
   }
   return count;
 }
@@ -77,8 +69,8 @@ void expect_ones(const std::vector<int>& count) {
 void expect_every_pair_once(const std::vector<Vec3>& source, const std::vector<Vec3>& target,
                             const OctreeRules& rules) {
   const HostVectors sources = make_host_vectors(source), targets = make_host_vectors(target);
-  Octree tree;
-  tree.build(sources, targets, rules);
+  HostOctree tree;
+  tree.build(HostSpace(), sources, targets, rules);
   expect_ones(count_pairs(tree, static_cast<int>(target.size()), static_cast<int>(source.size()), false));
 }
 
@@ -86,8 +78,8 @@ void expect_every_pair_once(const std::vector<Vec3>& source, const std::vector<V
 void expect_every_pair_once(const std::vector<Vec3>& nodes, const OctreeRules& rules) {
   expect_every_pair_once(nodes, nodes, rules);
   const HostVectors array = make_host_vectors(nodes);
-  Octree tree;
-  tree.build(array, array, rules);
+  HostOctree tree;
+  tree.build(HostSpace(), array, array, rules);
   const int n = static_cast<int>(nodes.size());
   expect_ones(count_pairs(tree, n, n, false));
   expect_ones(count_pairs(tree, n, n, true));
@@ -112,19 +104,19 @@ TEST(Octree, UsesEveryKindOfList) {
   const auto even = reference::make_cloud(Cloud::cube, 1000, {}, 1.0, random);
   nodes.insert(nodes.end(), even.begin(), even.end());
   const HostVectors array = make_host_vectors(nodes);
-  Octree tree;
-  tree.build(array, array, rules_for(4, 0.0, 0));
-  EXPECT_GT(tree.v_list().entries.size(), 0u);
-  EXPECT_GT(tree.w_list().entries.size(), 0u);
-  EXPECT_GT(tree.x_list().entries.size(), 0u);
-  EXPECT_GT(tree.u_list().entries.size(), 0u);
+  HostOctree tree;
+  tree.build(HostSpace(), array, array, rules_for(4, 0.0, 0));
+  EXPECT_GT(tree.v_list.n_entries, 0);
+  EXPECT_GT(tree.w_list.n_entries, 0);
+  EXPECT_GT(tree.x_list.n_entries, 0);
+  EXPECT_GT(tree.u_list.n_entries, 0);
 }
 
 TEST(Octree, AMatchWaitsForTheTurnsBeforeIt) {
   Random random(8);
   const HostVectors nodes = make_host_vectors(reference::make_cloud(Cloud::cluster, 5000, {}, 1.0, random));
-  Octree tree;
-  tree.build(nodes, nodes, rules_for(20, 0.0, 0));
+  HostOctree tree;
+  tree.build(HostSpace(), nodes, nodes, rules_for(20, 0.0, 0));
   const NearMatches near = make_near_matches(tree);
   std::vector<int> n_met(near.tiles.size(), 0);
   for (const Match& match : near.matches) {
@@ -160,8 +152,8 @@ TEST(Octree, NoLeafIsSmallerThanAllowed) {
   for (const Cloud cloud : reference::all_clouds)
     for (const double min_half_width : {0.5, 0.21}) {
       const HostVectors nodes = make_host_vectors(reference::make_cloud(cloud, 2000, {1.0, 0.0, 0.0}, 1.0, random));
-      Octree tree;
-      tree.build(nodes, nodes, rules_for(1, min_half_width, 0));
+      HostOctree tree;
+      tree.build(HostSpace(), nodes, nodes, rules_for(1, min_half_width, 0));
       EXPECT_GE(tree.half_width(tree.n_levels() - 1), min_half_width * (1.0 - 1e-12));
       // ... and crowded leaves go as far down as they may.
       EXPECT_LT(tree.half_width(tree.n_levels() - 1), 2.0 * min_half_width) << reference::name_of(cloud);
@@ -172,10 +164,11 @@ TEST(Octree, NodesLieInTheirBoxes) {
   Random random(6);
   const auto nodes = reference::make_cloud(Cloud::cluster, 3000, {0.2, 5.0, -1.0}, 0.3, random);
   const HostVectors array = make_host_vectors(nodes);
-  Octree tree;
-  tree.build(array, array, rules_for(7, 0.0, 0));
-  for (const Box& box : tree.boxes()) {
-    const Vec3 center = tree.center(box);
+  HostOctree tree;
+  tree.build(HostSpace(), array, array, rules_for(7, 0.0, 0));
+  for (int b = 0; b < tree.n_boxes(); ++b) {
+    const Box& box = tree.box(b);
+    const Vec3 center = tree.cube.center(box);
     const double reach = tree.half_width(box.level) * (1.0 + 1e-9);
     for (int i = 0; i < box.sources.count; ++i) {
       const Vec3 d = nodes[static_cast<std::size_t>(tree.source_order()(box.sources.first + i))] - center;
@@ -190,14 +183,12 @@ TEST(Octree, AStraightFiberLiesInOneRowOfCells) {
     for (int a = 0; a < 18; ++a)
       nodes.push_back({0.00173648 * s, 0.005 * std::cos(a * 0.349066), 0.005 * std::sin(a * 0.349066)});
   const HostVectors array = make_host_vectors(nodes);
-  Octree tree;
-  tree.build(array, array, rules_for(60, 0.0073, 0));
+  HostOctree tree;
+  tree.build(HostSpace(), array, array, rules_for(60, 0.0073, 0));
   const skein::IndexRange leaves = tree.level(tree.n_levels() - 1);
-  const auto& boxes = tree.boxes();
   for (int b = leaves.first; b < leaves.first + leaves.count; ++b)
-    for (int c = 1; c < 3; ++c)
-      EXPECT_EQ(boxes[static_cast<std::size_t>(b)].cell[c], boxes[static_cast<std::size_t>(leaves.first)].cell[c]);
-  EXPECT_LE(tree.u_list().entries.size(), tree.target_leaves().size());  // neighbours form one run
+    for (int c = 1; c < 3; ++c) EXPECT_EQ(tree.box(b).cell[c], tree.box(leaves.first).cell[c]);
+  for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) EXPECT_EQ(tree.near_runs(leaf).size(), 1u);  // of neighbours
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace {
 using reference::Cloud;
 
 struct RankTree {
-  Octree tree;
+  HostOctree tree;
   std::vector<std::vector<RankShares>> shares;  ///< [rank counts][rank]
   static constexpr int rank_counts[] = {1, 2, 3, 4, 7, 40};
 
@@ -30,7 +30,7 @@ struct RankTree {
     OctreeRules rules;
     rules.leaf_size = 8;
     rules.min_sources_for_expansion = 4;
-    tree.build(source, target, rules);
+    tree.build(HostSpace(), source, target, rules);
     for (const int n_ranks : rank_counts) {
       shares.emplace_back();
       for (int rank = 0; rank < n_ranks; ++rank)
@@ -57,8 +57,8 @@ TEST(RankShares, EveryTargetAndEverySourceIsOneRanks) {
         next_target += shares.own_targets().count;
         next_source += shares.own_sources().count;
       }
-      ASSERT_EQ(next_target, made.tree.target_order().extent_int(0));
-      ASSERT_EQ(next_source, made.tree.source_order().extent_int(0));
+      ASSERT_EQ(next_target, made.tree.n_targets);
+      ASSERT_EQ(next_source, made.tree.n_sources);
     }
   });
 }
@@ -76,7 +76,7 @@ TEST(RankShares, WhatIsSentIsWhatIsReceived) {
 
 TEST(RankShares, CoefficientsThatListsAskForAreThere) {
   for_trees([](const RankTree& made) {
-    const Octree& tree = made.tree;
+    const HostOctree& tree = made.tree;
     for (const auto& of_ranks : made.shares)
       for (const RankShares& shares : of_ranks) {
         std::set<int> there(shares.boxes_of_all.begin(), shares.boxes_of_all.end());
@@ -85,15 +85,13 @@ TEST(RankShares, CoefficientsThatListsAskForAreThere) {
         for (const auto& boxes : shares.received) there.insert(boxes.begin(), boxes.end());
         for (const IndexRange& run : shares.target_boxes)
           for (int b = run.first; b < run.first + run.count; ++b)
-            for (const FarPair* pair = tree.v_list().begin(b); pair != tree.v_list().end(b); ++pair)
-              ASSERT_TRUE(there.count(pair->source) == 1) << "V";
-        for (int leaf = 0; leaf < static_cast<int>(tree.target_leaves().size()); ++leaf) {
-          const int b = tree.target_leaves()[static_cast<std::size_t>(leaf)];
+            for (const FarPair& pair : tree.v_list.of(b)) ASSERT_TRUE(there.count(pair.source) == 1) << "V";
+        for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) {
+          const int b = tree.target_leaves(leaf);
           if (!shares.has_target(tree.box(b).targets.first)) continue;
           const IndexRange run = shares.target_boxes[static_cast<std::size_t>(tree.box(b).level)];
           ASSERT_TRUE(b >= run.first && b < run.first + run.count) << "a leaf of its own";
-          for (const int* fine = tree.w_list().begin(leaf); fine != tree.w_list().end(leaf); ++fine)
-            ASSERT_TRUE(there.count(*fine) == 1) << "W";
+          for (const int fine : tree.w_list.of(leaf)) ASSERT_TRUE(there.count(fine) == 1) << "W";
         }
         for (const int b : shares.boxes_of_all)
           for (int child = tree.box(b).first_child; child < tree.box(b).first_child + tree.box(b).n_children; ++child)
@@ -106,13 +104,13 @@ TEST(RankShares, NodesThatAreMetOneByOneAreLookedAt) {
   for_trees([](const RankTree& made) {
     for (const auto& of_ranks : made.shares)
       for (const RankShares& shares : of_ranks) {
-        std::vector<char> seen(static_cast<std::size_t>(made.tree.source_order().extent_int(0)));
+        std::vector<char> seen(static_cast<std::size_t>(made.tree.n_sources));
         for (const IndexRange& run : shares.source_runs)
           for (int i = run.first; i < run.first + run.count; ++i) {
             ASSERT_EQ(seen[static_cast<std::size_t>(i)], 0) << "twice";
             seen[static_cast<std::size_t>(i)] = 1;
           }
-        if (!made.tree.has_same_nodes()) continue;
+        if (!made.tree.same_nodes) continue;
         const NearMatches near = make_near_matches(made.tree, &shares);
         for (const int tile : near.met) {
           const IndexRange run = near.tiles[static_cast<std::size_t>(tile)];
@@ -125,7 +123,7 @@ TEST(RankShares, NodesThatAreMetOneByOneAreLookedAt) {
 // The ranks' matches, each in the order of all, give a tile with targets of a rank all the matches that it has in all.
 TEST(RankShares, TilesOfARankMeetAllTheyWould) {
   for_trees([](const RankTree& made) {
-    if (!made.tree.has_same_nodes()) return;
+    if (!made.tree.same_nodes) return;
     const NearMatches all = make_near_matches(made.tree);
     for (const auto& of_ranks : made.shares)
       for (const RankShares& shares : of_ranks) {

@@ -3,10 +3,11 @@
 #include <skein/arrays/types.hpp>
 
 #include <cstddef>
+#include <span>
 #include <string>
 
-// Arrays of the fast multipole method's path through a device: kept between evaluations, filled by counting, scanning
-// and filling.
+// Arrays of the fast multipole method in the memory of any execution space: kept between evaluations, filled by
+// counting, scanning and filling.
 
 namespace skein {
 
@@ -57,11 +58,13 @@ int scan_counts(const Space& space, const Kokkos::View<int*, Space>& count, cons
 
 /// Entries of several lists, one after the other: list i is entries(first(i)) .. entries(first(i + 1) - 1).
 template <class Entry, class Space>
-struct DeviceLists {
+struct Lists {
   Kokkos::View<int*, Space> first;
   Kokkos::View<Entry*, Space> entries;
   int n_entries = 0;
 
+  /// List i, where the host reaches the memory.
+  std::span<const Entry> of(const int i) const { return {entries.data() + first(i), entries.data() + first(i + 1)}; }
   double bytes() const {
     return static_cast<double>(entries.extent(0) * sizeof(Entry) + first.extent(0) * sizeof(int));
   }

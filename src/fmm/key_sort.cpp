@@ -1,41 +1,51 @@
-#include "fmm/device_sort.hpp"
+#include "fmm/key_sort.hpp"
 
 #include <utility>
 
 namespace skein {
 namespace {
 
-constexpr int digit_bits = 4;
-constexpr int n_digits = 1 << digit_bits;
-constexpr int chunk_keys = 32;  // of a thread
+/// Digits of the keys: a thread of a host has a cache for the counts of many.
+template <class Space>
+inline constexpr int digit_bits = on_host<Space> ? 11 : 4;
+template <class Space>
+inline constexpr int n_digits = 1 << digit_bits<Space>;
+
 constexpr int tile_keys = 128;  // that a team compares its own with at once
+
+/// Keys of a thread.
+template <class Space>
+int chunk_keys(const int n) {
+  constexpr int most_chunks = 16;
+  return on_host<Space> ? math::larger(32768, math::ceil_div(n, most_chunks)) : 32;
+}
 
 /// One stable pass by one digit: threads count the digits of their chunks, a scan over (digit, chunk) gives each chunk
 /// its places.
 template <class Space>
 void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrder<Space>& to, const int n,
                const int shift, const Kokkos::View<int*, Space>& place) {
-  const int n_chunks = math::ceil_div(n, chunk_keys);
+  const int size = chunk_keys<Space>(n), n_chunks = math::ceil_div(n, size);
   const auto from_key = from.key, to_key = to.key;
   const auto from_order = from.order, to_order = to.order;
   const auto places = place;
   Kokkos::parallel_for(
-      "skein::sort_on_device_count", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
-        int count[n_digits] = {};
-        const int last = math::smaller(n, (chunk + 1) * chunk_keys);
-        for (int i = chunk * chunk_keys; i < last; ++i)
-          ++count[static_cast<int>(from_key(i) >> shift) & (n_digits - 1)];
-        for (int digit = 0; digit < n_digits; ++digit) places(digit * n_chunks + chunk) = count[digit];
+      "skein::sort_by_key_count", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+        int count[n_digits<Space>] = {};
+        const int last = math::smaller(n, (chunk + 1) * size);
+        for (int i = chunk * size; i < last; ++i)
+          ++count[static_cast<int>(from_key(i) >> shift) & (n_digits<Space> - 1)];
+        for (int digit = 0; digit < n_digits<Space>; ++digit) places(digit * n_chunks + chunk) = count[digit];
       });
-  scan_in_place(space, place, n_digits * n_chunks);
+  scan_in_place(space, place, n_digits<Space> * n_chunks);
   Kokkos::parallel_for(
-      "skein::sort_on_device_move", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
-        int next[n_digits];
-        for (int digit = 0; digit < n_digits; ++digit) next[digit] = places(digit * n_chunks + chunk);
-        const int last = math::smaller(n, (chunk + 1) * chunk_keys);
-        for (int i = chunk * chunk_keys; i < last; ++i) {
+      "skein::sort_by_key_move", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+        int next[n_digits<Space>];
+        for (int digit = 0; digit < n_digits<Space>; ++digit) next[digit] = places(digit * n_chunks + chunk);
+        const int last = math::smaller(n, (chunk + 1) * size);
+        for (int i = chunk * size; i < last; ++i) {
           const std::uint64_t key = from_key(i);
-          const int at = next[static_cast<int>(key >> shift) & (n_digits - 1)]++;
+          const int at = next[static_cast<int>(key >> shift) & (n_digits<Space> - 1)]++;
           to_key(at) = key;
           to_order(at) = from_order(i);
         }
@@ -85,7 +95,7 @@ bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n)
   const auto key = sorted.key;
   int n_descents = 0;
   Kokkos::parallel_reduce(
-      "skein::sort_on_device_check", Kokkos::RangePolicy<Space>(space, 0, math::larger(0, n - 1)),
+      "skein::sort_by_key_check", Kokkos::RangePolicy<Space>(space, 0, math::larger(0, n - 1)),
       KOKKOS_LAMBDA(const int i, int& sum) { sum += key(i) > key(i + 1); }, n_descents);
   return n_descents == 0;
 }
@@ -93,8 +103,8 @@ bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n)
 }  // namespace
 
 template <class Space>
-void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, const int n, const int n_bits,
-                    SortSpace<Space>& memory, const int few) {
+void sort_by_key(const Space& space, KeyedOrder<Space>& sorted, const int n, const int n_bits, SortSpace<Space>& memory,
+                 const int few) {
   if (is_sorted(space, sorted, n)) return;
   memory.spare.require(static_cast<std::size_t>(n));
   if (n <= few) {
@@ -102,15 +112,15 @@ void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, const int n, 
     std::swap(sorted, memory.spare);
     return;
   }
-  require_extent(memory.place, static_cast<std::size_t>(n_digits * math::ceil_div(n, chunk_keys) + 1),
-                 "skein::device_sort::sort_places");
-  for (int shift = 0; shift < n_bits; shift += digit_bits) {
+  require_extent(memory.place, static_cast<std::size_t>(n_digits<Space> * math::ceil_div(n, chunk_keys<Space>(n)) + 1),
+                 "skein::key_sort::sort_places");
+  for (int shift = 0; shift < n_bits; shift += digit_bits<Space>) {
     sort_pass(space, sorted, memory.spare, n, shift, memory.place);
     std::swap(sorted, memory.spare);
   }
 }
 
-#define SKEIN_INSTANTIATE(S) template void sort_on_device<S>(const S&, KeyedOrder<S>&, int, int, SortSpace<S>&, int);
+#define SKEIN_INSTANTIATE(S) template void sort_by_key<S>(const S&, KeyedOrder<S>&, int, int, SortSpace<S>&, int);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -1,5 +1,4 @@
-#include "fmm/device_list_source.hpp"
-#include "fmm/fmm_operator_set.hpp"
+#include "fmm/octree_walk.hpp"
 
 namespace skein {
 namespace {
@@ -52,10 +51,10 @@ KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b,
 
 /// Level by level, because a box asks its parent's list.
 template <class Space>
-void build_touching(const Space& space, DeviceOctree<Space>& tree) {
+void build_touching(const Space& space, Octree<Space>& tree) {
   const auto n_boxes = static_cast<std::size_t>(tree.n_boxes());
-  require_extent(tree.touching, most_touching * n_boxes, "skein::device_far_lists::touching");
-  require_extent(tree.n_touching, n_boxes, "skein::device_far_lists::n_touching");
+  require_extent(tree.touching, most_touching * n_boxes, "skein::octree::touching");
+  require_extent(tree.n_touching, n_boxes, "skein::octree::n_touching");
   const ListSource<Space> from(tree);
   const auto touching = tree.touching, n_touching = tree.n_touching;
   for (int level = 0; level < tree.n_levels(); ++level) {
@@ -72,12 +71,12 @@ void build_touching(const Space& space, DeviceOctree<Space>& tree) {
 }
 
 template <class Space>
-void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sources_for_expansion) {
+void build_far(const Space& space, Octree<Space>& tree, const int min_sources_for_expansion) {
   const int n_boxes = tree.n_boxes();
   const auto n_first = static_cast<std::size_t>(n_boxes) + 1;
-  require_extent(tree.v_list.first, n_first, "skein::device_far_lists::v_first");
-  require_extent(tree.x_list.first, n_first, "skein::device_far_lists::x_first");
-  require_extent(tree.x_direct.first, n_first, "skein::device_far_lists::x_direct_first");
+  require_extent(tree.v_list.first, n_first, "skein::octree::v_first");
+  require_extent(tree.x_list.first, n_first, "skein::octree::x_first");
+  require_extent(tree.x_direct.first, n_first, "skein::octree::x_direct_first");
   for (const bool fills : {false, true}) {
     const ListSource<Space> from(tree);
     const auto far = tree.v_list;
@@ -98,7 +97,7 @@ void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sour
           }
         });
     if (fills) continue;
-    place_lists(space, tree, n_boxes, "skein::device_far_lists::list", tree.v_list, tree.x_list, tree.x_direct);
+    place_lists(space, tree, n_boxes, "skein::octree::list", tree.v_list, tree.x_list, tree.x_direct);
   }
   const auto pairs = tree.v_list.entries;
   Kokkos::parallel_reduce(
@@ -107,41 +106,15 @@ void build_far(const Space& space, DeviceOctree<Space>& tree, const int min_sour
       Kokkos::BOr<std::uint64_t>(tree.transfers));
 }
 
-/// Far pairs that share an operator stand together, in the order of the lists.
-template <class Space>
-void sort_far_pairs(const Space& space, DeviceOctree<Space>& tree) {
-  constexpr int n_bits = 11;  // of a level and an index
-  static_assert((max_key_depth + 1) * n_transfers <= 1 << n_bits);
-  const int n = tree.v_list.n_entries;
-  tree.far.require(static_cast<std::size_t>(n));
-  require_extent(tree.far_place, static_cast<std::size_t>(n), "skein::device_far_lists::far_place");
-  const auto boxes = tree.boxes;
-  const auto pairs = tree.v_list.entries;
-  const auto key = tree.far.key;
-  const auto unsorted = tree.far.order;
-  Kokkos::parallel_for(
-      "skein::make_transfer_keys", Kokkos::RangePolicy<Space>(space, 0, n), KOKKOS_LAMBDA(const int k) {
-        const FarPair pair = pairs(k);
-        key(k) = static_cast<std::uint64_t>(n_transfers * boxes(pair.target).level + transfer_index(pair.transfer));
-        unsorted(k) = k;
-      });
-  sort_on_device(space, tree.far, n, n_bits, tree.sort_memory);
-  const auto order = tree.far.order, place = tree.far_place;
-  Kokkos::parallel_for(
-      "skein::place_far_pairs", Kokkos::RangePolicy<Space>(space, 0, n),
-      KOKKOS_LAMBDA(const int i) { place(order(i)) = i; });
-}
-
 }  // namespace
 
 template <class Space>
-void build_far_lists(const Space& space, DeviceOctree<Space>& tree, const OctreeRules& rules) {
+void build_far_lists(const Space& space, Octree<Space>& tree) {
   build_touching(space, tree);
-  build_far(space, tree, rules.min_sources_for_expansion);
-  sort_far_pairs(space, tree);
+  build_far(space, tree, tree.rules.min_sources_for_expansion);
 }
 
-#define SKEIN_INSTANTIATE(S) template void build_far_lists<S>(const S&, DeviceOctree<S>&, const OctreeRules&);
+#define SKEIN_INSTANTIATE(S) template void build_far_lists<S>(const S&, Octree<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fmm/device_arrays.hpp"
+#include "fmm/lists.hpp"
 
 #include <cstdint>
 
@@ -13,10 +13,10 @@ struct KeyedOrder {
   Kokkos::View<int*, Space> order;
 
   void require(const std::size_t n) {
-    require_extent(key, n, "skein::device_sort::key");
-    require_extent(order, n, "skein::device_sort::order");
+    require_extent(key, n, "skein::key_sort::key");
+    require_extent(order, n, "skein::key_sort::order");
   }
-  double bytes() const { return 12.0 * static_cast<double>(key.extent(0)); }
+  double bytes() const { return 8.0 * static_cast<double>(key.extent(0)) + 4.0 * static_cast<double>(order.extent(0)); }
 };
 
 /// What the sort needs besides; kept between calls.
@@ -30,11 +30,12 @@ struct SortSpace {
 template <class Space>
 inline constexpr int few_keys = on_host<Space> ? 0 : 12288;
 
-/// The first n of `sorted` by key, ascending and stable: the same unique result as sort_by_key, in the memory of any
-/// execution space. Arrays may change places with the spare ones. Waits for the device.
+/// The first n of `sorted` by key, ascending and stable: equal keys keep their order. Only the low n_bits bits of the
+/// keys count. The result is unique, so it depends on no number of threads. Arrays may change places with the spare
+/// ones. Waits for the device.
 /// @param few  up to so many keys are compared with each other; the result does not depend on it
 template <class Space>
-void sort_on_device(const Space& space, KeyedOrder<Space>& sorted, int n, int n_bits, SortSpace<Space>& memory,
-                    int few = few_keys<Space>);
+void sort_by_key(const Space& space, KeyedOrder<Space>& sorted, int n, int n_bits, SortSpace<Space>& memory,
+                 int few = few_keys<Space>);
 
 }  // namespace skein
