@@ -2,8 +2,7 @@
 
 #include <skein/core/error.hpp>
 
-#include "device_sum.hpp"
-#include "fmm_evaluator.hpp"
+#include "fmm/fmm_paths.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +10,7 @@ namespace skein {
 
 std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path, Communicator* ranks) {
   const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
-  if (is_on_host) return std::make_unique<FmmEvaluator>(ranks);
+  if (is_on_host) return make_host_fmm_sum(ranks);
   return make_device_fmm_sum();
 }
 

@@ -1,25 +1,27 @@
 #pragma once
 
-#include "fmm/near_tiles.hpp"
-#include "fmm/tree_fit.hpp"
-#include "fmm_choices.hpp"
-#include "operator_store.hpp"
+#include <skein/arrays/combination.hpp>
 
-#include <vector>
+#include "fmm/box_passes.hpp"
+#include "fmm/fmm_choices.hpp"
+#include "fmm/operator_store.hpp"
+#include "fmm/rank_exchange.hpp"
+#include "fmm/tree_fit.hpp"
+#include "fmm/tree_tasks.hpp"
 
 namespace skein {
 
-/// Sources and targets in the host's memory; `target` is `position` itself where the sources are the targets.
-struct HostNodes {
-  ConstVectorView<HostSpace> position, force, target;
-  ConstScalarView<HostSpace> blob;
-};
-
-/// The evaluation on the host, with its vector units; device arrays are copied.
+/// An evaluation of the fast multipole method in the memory of Workers::Space: tree, sorted nodes, passes, leaves.
+/// Workers say how its loops go through the machine: HostWorkers with a host's vector units, TeamWorkers as plain
+/// kernels. Arrays elsewhere are copied; where the caller's are in that memory already they never leave it.
+template <class Workers>
 class FmmEvaluator final : public FmmSum {
  public:
+  using Space = typename Workers::Space;
+
   /// @param ranks  that share the sum; null: none
-  explicit FmmEvaluator(Communicator* ranks) : ranks_(ranks) {}
+  explicit FmmEvaluator(const Workers& workers = Workers(), Communicator* ranks = nullptr)
+      : workers_(workers), ranks_(ranks) {}
 
   bool take(const Sources& sources, const ConstVectors& target) override;
   double largest_blob() const override { return blobs_.largest; }
@@ -27,49 +29,203 @@ class FmmEvaluator final : public FmmSum {
   void end_step() noexcept override { keeping_.end_step(); }
   bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) override;
   void add_to(const Vectors& velocity) const override;
-  std::vector<Vec3> sample(const EvenSample& sample) const override;
+  std::vector<Vec3> sample(const EvenSample& sample) const override {
+    return read_sample<Space>(space_, own_velocity_, sample);
+  }
 
  private:
+  /// What an evaluation in one precision keeps.
+  template <class Real>
+  struct InPrecision {
+    OperatorStore<Real> store;
+    OperatorCopies<Space, Real> operators;
+    Coefficients<Space, Real> coefficients;
+  };
+
+  void require_tree(const OctreeRules& rules, bool may_keep);
+  /// Of a new tree: who does what, where others take part or each pair is met once.
+  void divide_tree(const FmmPlan& plan);
   void sort_nodes(double scale);
   template <class Real>
-  void add_in(const FmmOptions& options, const FmmPlan& plan, OperatorStore<Real>& store,
-              Coefficients<Real>& coefficients);
+  void add_in(const FmmOptions& options, const FmmPlan& plan, InPrecision<Real>& in);
   template <class Real, class Field>
-  void pass(const FmmPlan& plan, const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
-            Coefficients<Real>& coefficients);
-  template <class Near, class Real, class Field>
-  void add_leaves(const Field& field, const std::vector<const OperatorSet<Real>*>& levels,
-                  const Coefficients<Real>& coefficients);
-  void require_tree(const OctreeRules& rules);
-  /// Divides a new tree, or one that others than before are to be had from.
-  void require_shares(const FmmPlan& plan);
-  template <class Real>
-  void exchange(const Coefficients<Real>& coefficients);
-  /// Own targets' velocities to rank 0.
-  void gather_velocities();
+  void pass(const FmmPlan& plan, const Field& field, const Levels<Space, Real>& levels,
+            Coefficients<Space, Real>& coefficients);
   void count_work();
-  double node_bytes() const;
+  double lap(LapTimer& watch) const {
+    space_.fence();
+    return watch.lap();
+  }
 
+  Workers workers_;
   Communicator* ranks_;
-  HostNodes nodes_;
+  Space space_;
+  UnsortedNodes<Space> nodes_;
   BlobRange blobs_{0.0, 0.0};
-  HostVectors own_velocity_;
-  HostOctree tree_;
+  VectorView<Space> own_velocity_;
+  Octree<Space> tree_;
   TreeKeeping keeping_;
-  SortedNodes sorted_;
-  bool is_symmetric_ = false;  ///< sources are targets, with one blob
-  NearTiles<double> near_tiles_;
-  NearTiles<float> single_near_tiles_;
-  HostScalars near_velocity_;
-  OperatorStore<double> operators_;
-  OperatorStore<float> single_operators_;
-  Coefficients<double> coefficients_;
-  Coefficients<float> single_coefficients_;
-  std::vector<TargetTask> tasks_;
-  std::vector<double> send_, receive_;  ///< to and from other ranks
-  RankShares shares_;                   ///< of the tree; n_ranks 1 without others
-  bool has_shares_ = false;
-  NearMatches near_matches_;  ///< of the tree, once they were needed
+  SortedNodes<Space> sorted_;
+  LeafParts<Space> parts_;
+  bool is_symmetric_ = false;  ///< sources are targets, with one blob, and each pair is met once
+  bool is_divided_ = false;    ///< the tree is
+  PassedBoxes boxes_;
+  RankExchange exchange_;  ///< with other ranks, where there are any
+  InPrecision<double> in_double_;
+  InPrecision<float> in_single_;
 };
+
+template <class Workers>
+bool FmmEvaluator<Workers>::take(const Sources& sources, const ConstVectors& target) {
+  const typename Space::memory_space memory;
+  const auto here = [&](const auto& array) { return Kokkos::create_mirror_view_and_copy(memory, array); };
+  nodes_.position = here(sources.position);
+  nodes_.force = here(sources.force);
+  nodes_.blob = here(sources.blob);
+  const bool same = are_same_nodes(sources.position, target);
+  nodes_.target = same ? nodes_.position : ConstVectorView<Space>(here(target));
+  blobs_ = find_blob_range<Space>(space_, nodes_.blob);
+  return are_finite<Space>(space_, nodes_.position) && (same || are_finite<Space>(space_, nodes_.target));
+}
+
+template <class Workers>
+bool FmmEvaluator<Workers>::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
+  LapTimer watch;
+  FmmPlan plan = chosen;
+  const bool is_symmetric =
+      Workers::meets_pairs_once && are_same_nodes(nodes_.position, nodes_.target) && blobs_.smallest == blobs_.largest;
+  require_tree(make_octree_rules(options, plan), is_symmetric == is_symmetric_);
+  is_symmetric_ = is_symmetric;
+  settle_plan(options, blobs_, tree_.largest_leaf, plan);
+  statistics.plan = plan;
+  statistics.tree_seconds = lap(watch);
+  if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_, options) > 1.0)
+    return false;
+  if (own_velocity_.extent(0) != nodes_.target.extent(0))
+    own_velocity_ = VectorView<Space>("skein::fmm_evaluator::velocity", nodes_.target.extent(0));
+  divide_tree(plan);
+  sort_nodes(regularized_stokeslet::scale(viscosity));
+  statistics.sort_seconds = lap(watch);
+  if (plan.far_in_single)
+    add_in<float>(options, plan, in_single_);
+  else
+    add_in<double>(options, plan, in_double_);
+  if constexpr (on_host<Space>) {
+    if (ranks_ != nullptr) exchange_.gather_velocities(tree_, own_velocity_);
+  }
+  return true;
+}
+
+template <class Workers>
+void FmmEvaluator<Workers>::require_tree(const OctreeRules& rules, const bool may_keep) {
+  if (may_keep && keeping_.may_serve(rules) && tree_.still_fits(space_, nodes_.position, nodes_.target)) return;
+  tree_.build(space_, nodes_.position, nodes_.target, rules);
+  if (ranks_ != nullptr) tree_.drop_keys();
+  keeping_.note_new_tree(rules);
+  ++statistics.n_trees;
+  workers_.take(space_, tree_);
+  is_divided_ = false;
+  count_work();
+}
+
+template <class Workers>
+void FmmEvaluator<Workers>::divide_tree(const FmmPlan& plan) {
+  if (is_divided_) return;
+  is_divided_ = true;
+  boxes_ = {};
+  IndexRange own_targets{0, tree_.n_targets};
+  if constexpr (on_host<Space>) {
+    if (ranks_ != nullptr) {
+      exchange_.share(*ranks_, tree_, plan, is_symmetric_);
+      boxes_ = exchange_.boxes();
+      own_targets = exchange_.shares().own_targets();
+    }
+  }
+  if (ranks_ == nullptr)
+    for (int level = 0; level < tree_.n_levels(); ++level) boxes_.sources.push_back(tree_.level(level));
+  if (ranks_ == nullptr) boxes_.targets = boxes_.sources;
+  if constexpr (Workers::meets_pairs_once) {
+    if (is_symmetric_)
+      workers_.meet_once(tree_, ranks_ == nullptr ? nullptr : &exchange_.shares());
+    else
+      workers_.meet_twice();
+  }
+  if (ranks_ != nullptr) tree_.drop_touching();
+  parts_.build(space_, tree_, Workers::part_targets, own_targets);
+}
+
+template <class Workers>
+void FmmEvaluator<Workers>::sort_nodes(const double scale) {
+  require_nodes(tree_, sorted_);
+  if (ranks_ == nullptr) {
+    skein::sort_nodes<Space>(space_, tree_, nodes_, scale, {0, tree_.n_sources}, {0, tree_.n_targets}, sorted_);
+    return;
+  }
+  // The memory of other places is never touched, so that the system does not give it.
+  IndexRange targets = exchange_.shares().own_targets();
+  for (const IndexRange run : exchange_.shares().source_runs) {
+    skein::sort_nodes<Space>(space_, tree_, nodes_, scale, run, targets, sorted_);
+    targets = {};
+  }
+}
+
+template <class Workers>
+template <class Real>
+void FmmEvaluator<Workers>::add_in(const FmmOptions& options, const FmmPlan& plan, InPrecision<Real>& in) {
+  LapTimer watch;
+  const auto& levels =
+      in.operators.require(in.store.require(options.far_field, plan, blobs_.largest, tree_), tree_.transfers_met());
+  statistics.operators_seconds = watch.lap();
+  with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, in.coefficients); });
+  double node_bytes = sorted_.bytes(), coefficient_bytes = in.coefficients.bytes();
+  if (ranks_ != nullptr) {
+    const RankShares& shares = exchange_.shares();
+    node_bytes = 56.0 * shares.n_looked_at() + (tree_.same_nodes ? 0.0 : 24.0 * shares.own_targets().count);
+    coefficient_bytes = sizeof(Real) * shares.n_boxes * in.coefficients.box_size;
+  }
+  statistics.memory_bytes = in.store.bytes() + in.operators.bytes() + coefficient_bytes + node_bytes +
+                            workers_.bytes() + parts_.bytes() + tree_.bytes();
+}
+
+template <class Workers>
+template <class Real, class Field>
+void FmmEvaluator<Workers>::pass(const FmmPlan& plan, const Field& field, const Levels<Space, Real>& levels,
+                                 Coefficients<Space, Real>& coefficients) {
+  LapTimer watch;
+  coefficients.stride = levels.max_rank_padded;
+  coefficients.box_size = Field::n_columns * coefficients.stride;
+  const std::size_t needed =
+      static_cast<std::size_t>(tree_.n_boxes()) * static_cast<std::size_t>(coefficients.box_size);
+  require_extent(coefficients.source, needed, "skein::fmm_evaluator::source_coefficients");
+  require_extent(coefficients.target, needed, "skein::fmm_evaluator::target_coefficients");
+  const Passes<Space, Real, Field> passes(tree_, sorted_, field, levels, coefficients);
+  if constexpr (on_host<Space>) {
+    if (ranks_ != nullptr) boxes_.exchange = [&] { exchange_.exchange_coefficients(coefficients); };
+  }
+  compute_coefficients(workers_, passes, boxes_);
+  statistics.far_seconds = lap(watch);
+  with_near_precision<Real>(
+      plan, [&](auto near) { workers_.template sum_leaves<decltype(near)>(passes, parts_, own_velocity_); });
+  statistics.leaf_seconds = lap(watch);
+}
+
+template <class Workers>
+void FmmEvaluator<Workers>::count_work() {
+  statistics.n_boxes = tree_.n_boxes();
+  statistics.n_levels = tree_.n_levels();
+  statistics.n_leaves = tree_.n_target_leaves;
+  statistics.smallest_half_width = tree_.half_width(tree_.n_levels() - 1);
+  statistics.work.n_sources = static_cast<double>(tree_.n_sources);
+  statistics.work.n_targets = static_cast<double>(tree_.n_targets);
+  statistics.work.n_boxes = static_cast<double>(tree_.n_boxes());
+  statistics.work.far_pairs = static_cast<double>(tree_.v_list.n_entries);
+  statistics.work.near_pairs = tree_.n_near_pairs;
+}
+
+template <class Workers>
+void FmmEvaluator<Workers>::add_to(const Vectors& velocity) const {
+  const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), own_velocity_);
+  combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, own});
+}
 
 }  // namespace skein

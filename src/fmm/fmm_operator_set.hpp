@@ -15,10 +15,6 @@ struct PaddedMatrix {
   int n_columns = 0;
 
   bool empty() const { return n_columns == 0; }
-  /// C = A B; @param b [n_columns, n], stride b_stride; @param c [n_rows, n], stride c_stride
-  void apply(const Real* b, const int b_stride, const int n, Real* c, const int c_stride) const {
-    multiply(entry.data(), n_rows, n_rows, n_columns, b, b_stride, n, c, c_stride);
-  }
 };
 
 /// A matrix, or two thin ones whose product is the matrix to within a tolerance, where that takes less work.
@@ -27,17 +23,6 @@ struct FactoredMatrix {
   PaddedMatrix<Real> last, first;  ///< last (first B); only `last` where it is the whole matrix
 
   bool empty() const { return last.empty(); }
-  /// Numbers between the two products, per column of B.
-  int middle_stride() const { return first.n_rows; }
-  /// C = A B; @param middle  [middle_stride, n]
-  void apply(const Real* b, const int b_stride, const int n, Real* middle, Real* c, const int c_stride) const {
-    if (first.empty()) {
-      last.apply(b, b_stride, n, c, c_stride);
-      return;
-    }
-    first.apply(b, b_stride, n, middle, first.n_rows);
-    last.apply(middle, first.n_rows, n, c, c_stride);
-  }
 };
 
 /// Boxes of levels above have no far pairs and need no coefficients.

@@ -18,7 +18,7 @@ class HostScratch {
   HostScratch(const HostScratch&) = delete;
   HostScratch& operator=(const HostScratch&) = delete;
 
-  Real* get() const { return start_; }
+  Real* data() const { return start_; }
 
  private:
   Real* start_;

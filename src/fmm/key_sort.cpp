@@ -1,6 +1,8 @@
 #include "fmm/key_sort.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -29,17 +31,20 @@ void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrd
   const auto from_key = from.key, to_key = to.key;
   const auto from_order = from.order, to_order = to.order;
   const auto places = place;
-  Kokkos::parallel_for(
-      "skein::sort_by_key_count", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+  for_range(
+      "skein::sort_by_key_count", space, n_chunks,
+      KOKKOS_LAMBDA(const int chunk) {
         int count[n_digits<Space>] = {};
         const int last = math::smaller(n, (chunk + 1) * size);
         for (int i = chunk * size; i < last; ++i)
           ++count[static_cast<int>(from_key(i) >> shift) & (n_digits<Space> - 1)];
         for (int digit = 0; digit < n_digits<Space>; ++digit) places(digit * n_chunks + chunk) = count[digit];
-      });
+      },
+      1);
   scan_in_place(space, place, n_digits<Space> * n_chunks);
-  Kokkos::parallel_for(
-      "skein::sort_by_key_move", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+  for_range(
+      "skein::sort_by_key_move", space, n_chunks,
+      KOKKOS_LAMBDA(const int chunk) {
         int next[n_digits<Space>];
         for (int digit = 0; digit < n_digits<Space>; ++digit) next[digit] = places(digit * n_chunks + chunk);
         const int last = math::smaller(n, (chunk + 1) * size);
@@ -49,7 +54,8 @@ void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrd
           to_key(at) = key;
           to_order(at) = from_order(i);
         }
-      });
+      },
+      1);
 }
 
 /// Where each of a team's keys goes: behind those that are smaller, or equal and before it.
@@ -89,6 +95,25 @@ void sort_few(const Space& space, const KeyedOrder<Space>& from, const KeyedOrde
   Kokkos::parallel_for("skein::sort_few", policy, Find{from, to, n});
 }
 
+/// So many keys are sooner sorted by one thread of a host than by digits, whose counts are more.
+constexpr int few_of_thread = 16384;
+
+template <class Space>
+void sort_by_thread(const KeyedOrder<Space>& from, const KeyedOrder<Space>& to, const int n) {
+  struct Keyed {
+    std::uint64_t key;
+    int place;
+    bool operator<(const Keyed& other) const { return key < other.key || (key == other.key && place < other.place); }
+  };
+  std::vector<Keyed> keyed(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) keyed[static_cast<std::size_t>(i)] = {from.key(i), i};
+  std::sort(keyed.begin(), keyed.end());
+  for (int i = 0; i < n; ++i) {
+    to.key(i) = keyed[static_cast<std::size_t>(i)].key;
+    to.order(i) = from.order(keyed[static_cast<std::size_t>(i)].place);
+  }
+}
+
 /// Fibers come in order, and nodes move little.
 template <class Space>
 bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n) {
@@ -111,6 +136,13 @@ void sort_by_key(const Space& space, KeyedOrder<Space>& sorted, const int n, con
     sort_few(space, sorted, memory.spare, n);
     std::swap(sorted, memory.spare);
     return;
+  }
+  if constexpr (on_host<Space>) {
+    if (n <= few_of_thread) {
+      sort_by_thread(sorted, memory.spare, n);
+      std::swap(sorted, memory.spare);
+      return;
+    }
   }
   require_extent(memory.place, static_cast<std::size_t>(n_digits<Space> * math::ceil_div(n, chunk_keys<Space>(n)) + 1),
                  "skein::key_sort::sort_places");

@@ -24,6 +24,19 @@ void extend(View& view, const std::size_t n) {
   if (view.extent(0) < n) Kokkos::resize(view, n + n / 2);
 }
 
+/// So many entries are not worth a fork of a host's threads.
+inline constexpr int few_entries = 300;
+
+/// A parallel loop over 0 .. n - 1. @param few  on hosts so many are left to one thread
+template <class Space, class Use>
+void for_range(const char* label, const Space& space, const int n, const Use& use, const int few = few_entries) {
+  if (on_host<Space> && n <= few) {
+    for (int i = 0; i < n; ++i) use(i);
+    return;
+  }
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<Space>(space, 0, n), use);
+}
+
 /// What scan_counts does at one entry. No lambda: in a template of a header the device's compiler may not find it
 /// again.
 template <class Space>
@@ -38,22 +51,28 @@ struct ScanCount {
   }
 };
 
+/// count(i) <- base + the counts of begin .. i - 1, for begin <= i <= end: entry `end` exists and is overwritten.
+/// @param waits  for the result
+/// @return base + all counts, where it waits
+template <class Space>
+int scan_counts(const Space& space, const Kokkos::View<int*, Space>& count, const int begin, const int end,
+                const int base, const bool waits = true) {
+  const ScanCount<Space> scan{count, end, base};
+  const Kokkos::RangePolicy<Space> range(space, begin, end + 1);
+  int total = 0;
+  if (on_host<Space> && end - begin <= few_entries)
+    for (int i = begin; i <= end; ++i) scan(i, total, true);
+  else if (waits)
+    Kokkos::parallel_scan("skein::scan_counts", range, scan, total);
+  else
+    Kokkos::parallel_scan("skein::scan_counts", range, scan);
+  return base + total;
+}
+
 /// count(i) <- the counts of 0 .. i - 1, for 0 <= i <= end: entry `end` exists and is overwritten. Waits for nothing.
 template <class Space>
 void scan_in_place(const Space& space, const Kokkos::View<int*, Space>& count, const int end) {
-  Kokkos::parallel_scan("skein::scan_counts", Kokkos::RangePolicy<Space>(space, 0, end + 1),
-                        ScanCount<Space>{count, end, 0});
-}
-
-/// count(i) <- base + the counts of begin .. i - 1, for begin <= i <= end: entry `end` exists and is overwritten.
-/// @return base + all counts; waits for the device
-template <class Space>
-int scan_counts(const Space& space, const Kokkos::View<int*, Space>& count, const int begin, const int end,
-                const int base) {
-  int total = 0;
-  Kokkos::parallel_scan("skein::scan_counts", Kokkos::RangePolicy<Space>(space, begin, end + 1),
-                        ScanCount<Space>{count, end, base}, total);
-  return base + total;
+  scan_counts(space, count, 0, end, 0, false);
 }
 
 /// Entries of several lists, one after the other: list i is entries(first(i)) .. entries(first(i + 1) - 1).

@@ -42,7 +42,7 @@ void exchange_within(const PackedSide<Real>& side, const Real blob_squared, Velo
 }  // namespace
 
 template <class Real>
-void NearTiles<Real>::load(const SortedNodes& nodes, const NearMatches& near, const int tile) {
+void NearTiles<Real>::load(const SortedNodes<HostSpace>& nodes, const NearMatches& near, const int tile) {
   const auto t = static_cast<std::size_t>(tile);
   const IndexRange run = near.tiles[t];
   const int first = near.packed_first[t], last = near.packed_first[t + 1];
@@ -81,7 +81,8 @@ ShiftedSide<Real> NearTiles<Real>::side_seen_from(const NearMatches& near, const
 }
 
 template <class Real>
-void NearTiles<Real>::compute(const SortedNodes& nodes, const NearMatches& near, const HostScalars& velocity) {
+void NearTiles<Real>::compute(const SortedNodes<HostSpace>& nodes, const NearMatches& near,
+                              const HostScalars& velocity) {
   const int n_tiles = static_cast<int>(near.tiles.size());
   if (numbers_.extent_int(0) != 6 * near.n_packed())
     numbers_ = Kokkos::View<Real*, HostSpace>(

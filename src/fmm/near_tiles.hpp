@@ -1,6 +1,7 @@
 #pragma once
 
-#include "fmm/fmm_near_matches.hpp"
+#include "fmm/near_matches.hpp"
+#include "fmm/sorted_nodes.hpp"
 #include "kernels/stokeslet_exchange.hpp"
 
 #include <vector>
@@ -36,14 +37,14 @@ class NearTiles {
  public:
   /// velocity[c * n_packed + i] = what node i receives from its leaf and that leaf's partners, in the packed order of
   /// `near`. In single precision coordinates are rounded on the scale of a leaf: single_precision_error allows for it.
-  void compute(const SortedNodes& nodes, const NearMatches& near, const HostScalars& velocity);
+  void compute(const SortedNodes<HostSpace>& nodes, const NearMatches& near, const HostScalars& velocity);
 
   double bytes() const {
     return static_cast<double>(numbers_.size() * sizeof(Real) + origin_.capacity() * sizeof(Vec3));
   }
 
  private:
-  void load(const SortedNodes& nodes, const NearMatches& near, int tile);
+  void load(const SortedNodes<HostSpace>& nodes, const NearMatches& near, int tile);
   PackedSide<Real> side(const NearMatches& near, int tile) const;
   ShiftedSide<Real> side_seen_from(const NearMatches& near, int tile, int other) const;
 

@@ -1,6 +1,6 @@
 #include <skein/core/error.hpp>
 
-#include "device_sum.hpp"
+#include "fmm/fmm_paths.hpp"
 
 namespace skein {
 

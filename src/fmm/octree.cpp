@@ -14,20 +14,46 @@ namespace {
 template <class Space>
 using Nodes = ConstVectorView<Space>;
 
+/// The extremes of a run of coordinates, or of one on a device; several at a time, because each waits for the one
+/// before.
+template <class Space>
+struct FindBounds {
+  using Extremes = Kokkos::MinMax<double>;
+  static constexpr int lanes = on_host<Space> ? 16 : 1, run = on_host<Space> ? 2048 : 1;
+
+  Nodes<Space> nodes;
+  int axis;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int k, typename Extremes::value_type& extremes) const {
+    const int n = nodes.extent_int(0), first = k * run, end = math::smaller(n, first + run);
+    double low[lanes], high[lanes];
+    for (int lane = 0; lane < lanes; ++lane) low[lane] = NodeBounds::most, high[lane] = -NodeBounds::most;
+    int i = first;
+    for (; i + lanes <= end; i += lanes)
+      for (int lane = 0; lane < lanes; ++lane) {
+        const double x = nodes(i + lane, axis);
+        low[lane] = x < low[lane] ? x : low[lane];
+        high[lane] = x > high[lane] ? x : high[lane];
+      }
+    for (; i < end; ++i) {
+      const double x = nodes(i, axis);
+      low[0] = x < low[0] ? x : low[0];
+      high[0] = x > high[0] ? x : high[0];
+    }
+    for (int lane = 0; lane < lanes; ++lane) {
+      extremes.min_val = low[lane] < extremes.min_val ? low[lane] : extremes.min_val;
+      extremes.max_val = high[lane] > extremes.max_val ? high[lane] : extremes.max_val;
+    }
+  }
+};
+
 template <class Space>
 void widen(const Space& space, const Nodes<Space>& nodes, NodeBounds& bounds) {
-  const Kokkos::RangePolicy<Space> range(space, 0, nodes.extent_int(0));
-  using Extremes = Kokkos::MinMax<double>;
+  using Find = FindBounds<Space>;
+  const Kokkos::RangePolicy<Space> runs(space, 0, math::ceil_div(nodes.extent_int(0), Find::run));
   for (int c = 0; c < 3; ++c) {
-    typename Extremes::value_type found;
-    Kokkos::parallel_reduce(
-        "skein::find_bounds", range,
-        KOKKOS_LAMBDA(const int i, typename Extremes::value_type& extremes) {
-          const double x = nodes(i, c);
-          extremes.min_val = x < extremes.min_val ? x : extremes.min_val;
-          extremes.max_val = x > extremes.max_val ? x : extremes.max_val;
-        },
-        Extremes(found));
+    typename Find::Extremes::value_type found;
+    Kokkos::parallel_reduce("skein::find_bounds", runs, Find{nodes, c}, typename Find::Extremes(found));
     bounds.low[c] = std::min(bounds.low[c], found.min_val);
     bounds.high[c] = std::max(bounds.high[c], found.max_val);
   }
@@ -39,9 +65,8 @@ void make_keys(const Space& space, const Nodes<Space>& nodes, const KeyOf& key_o
                const KeyedOrder<Space>& keyed) {
   const auto key = keyed.key;
   const auto order = keyed.order;
-  Kokkos::parallel_for(
-      "skein::make_morton_keys", Kokkos::RangePolicy<Space>(space, 0, math::ceil_div(nodes.extent_int(0), stride)),
-      KOKKOS_LAMBDA(const int i) {
+  for_range(
+      "skein::make_morton_keys", space, math::ceil_div(nodes.extent_int(0), stride), KOKKOS_LAMBDA(const int i) {
         key(i) = key_of(nodes, i * stride);
         order(i) = i;
       });
@@ -131,8 +156,8 @@ void split_level(const Space& space, Octree<Space>& tree, const int level) {
   require_extent(tree.count, static_cast<std::size_t>(parents.count) + 1, "skein::octree::box_count");
   const auto count = tree.count;
   const auto parent_boxes = tree.boxes;
-  Kokkos::parallel_for(
-      "skein::count_children", Kokkos::RangePolicy<Space>(space, 0, parents.count), KOKKOS_LAMBDA(const int k) {
+  for_range(
+      "skein::count_children", space, parents.count, KOKKOS_LAMBDA(const int k) {
         const Box box = parent_boxes(parents.first + k);
         int n = 0;
         if (math::larger(box.sources.count, box.targets.count) > split_above) {
@@ -146,8 +171,8 @@ void split_level(const Space& space, Octree<Space>& tree, const int level) {
   if (n_boxes == first_child) return;
   extend(tree.boxes, static_cast<std::size_t>(n_boxes));
   const auto boxes = tree.boxes;
-  Kokkos::parallel_for(
-      "skein::split_boxes", Kokkos::RangePolicy<Space>(space, 0, parents.count), KOKKOS_LAMBDA(const int k) {
+  for_range(
+      "skein::split_boxes", space, parents.count, KOKKOS_LAMBDA(const int k) {
         if (count(k + 1) == count(k)) return;
         const int parent = parents.first + k;
         Box box = boxes(parent);
@@ -167,8 +192,8 @@ void split_boxes(const Space& space, Octree<Space>& tree) {
   extend(tree.boxes, 1);
   const auto boxes = tree.boxes;
   const int n_sources = tree.n_sources, n_targets = tree.n_targets;
-  Kokkos::parallel_for(
-      "skein::make_root", Kokkos::RangePolicy<Space>(space, 0, 1), KOKKOS_LAMBDA(const int i) {
+  for_range(
+      "skein::make_root", space, 1, KOKKOS_LAMBDA(const int i) {
         Box root;
         root.sources.count = n_sources;
         root.targets.count = n_targets;

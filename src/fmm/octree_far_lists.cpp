@@ -7,13 +7,13 @@ namespace {
 /// children.
 template <class Space>
 KOKKOS_INLINE_FUNCTION void list_touching(const ListSource<Space>& from, const int b, EntrySink<int>& touching) {
-  const Box box = from.boxes(b);
+  const Box& box = from.boxes(b);
   if (b == 0) touching.add(0);
   if (b == 0) return;
   const IndexRange near_parent = from.touching_of(box.parent);
   for (int k = near_parent.first; k < near_parent.first + near_parent.count; ++k) {
     const int a = from.touching(k);
-    const Box other = from.boxes(a);
+    const Box& other = from.boxes(a);
     if (other.is_leaf() && touch(box, other)) touching.add(a);
     for (int s = other.first_child; s < other.first_child + other.n_children; ++s)
       if (touch(box, from.boxes(s))) touching.add(s);
@@ -29,13 +29,13 @@ struct FarSinks {
 template <class Space>
 KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b, const int min_sources_for_expansion,
                                      FarSinks& sinks) {
-  const Box box = from.boxes(b);
+  const Box& box = from.boxes(b);
   if (b == 0 || box.targets.count == 0) return;
   const bool is_cheap = box.is_leaf() && box.targets.count < min_sources_for_expansion;
   const IndexRange near_parent = from.touching_of(box.parent);
   for (int k = near_parent.first; k < near_parent.first + near_parent.count; ++k) {
     const int a = from.touching(k);
-    const Box other = from.boxes(a);
+    const Box& other = from.boxes(a);
     if (other.is_leaf() && other.sources.count > 0 && !touch(box, other)) {
       if (is_cheap)
         sinks.x_direct.add(a);
@@ -43,7 +43,7 @@ KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b,
         sinks.coarse.add(a);
     }
     for (int s = other.first_child; s < other.first_child + other.n_children; ++s) {
-      const Box child = from.boxes(s);
+      const Box& child = from.boxes(s);
       if (child.sources.count > 0 && !touch(box, child)) sinks.far.add(make_far_pair(b, s, box, child));
     }
   }
@@ -59,8 +59,8 @@ void build_touching(const Space& space, Octree<Space>& tree) {
   const auto touching = tree.touching, n_touching = tree.n_touching;
   for (int level = 0; level < tree.n_levels(); ++level) {
     const IndexRange boxes = tree.level(level);
-    Kokkos::parallel_for(
-        "skein::list_touching", Kokkos::RangePolicy<Space>(space, 0, boxes.count), KOKKOS_LAMBDA(const int k) {
+    for_range(
+        "skein::list_touching", space, boxes.count, KOKKOS_LAMBDA(const int k) {
           const int b = boxes.first + k;
           EntrySink<int> sink;
           sink.to = touching.data() + most_touching * b;
@@ -81,8 +81,8 @@ void build_far(const Space& space, Octree<Space>& tree, const int min_sources_fo
     const ListSource<Space> from(tree);
     const auto far = tree.v_list;
     const auto coarse = tree.x_list, x_direct = tree.x_direct;
-    Kokkos::parallel_for(
-        "skein::list_far", Kokkos::RangePolicy<Space>(space, 0, n_boxes), KOKKOS_LAMBDA(const int b) {
+    for_range(
+        "skein::list_far", space, n_boxes, KOKKOS_LAMBDA(const int b) {
           FarSinks sinks;
           if (fills) {
             sinks.far.to = far.entries.data() + far.first(b);

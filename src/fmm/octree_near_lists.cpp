@@ -60,8 +60,8 @@ void find_target_leaves(const Space& space, Octree<Space>& tree) {
   tree.largest_leaf = tree.n_target_leaves > 0 ? tree.half_width(coarsest) : 0.0;
   require_extent(tree.target_leaves, static_cast<std::size_t>(tree.n_target_leaves), "skein::octree::target_leaves");
   const auto leaves = tree.target_leaves;
-  Kokkos::parallel_for(
-      "skein::list_target_leaves", Kokkos::RangePolicy<Space>(space, 0, n_boxes), KOKKOS_LAMBDA(const int b) {
+  for_range(
+      "skein::list_target_leaves", space, n_boxes, KOKKOS_LAMBDA(const int b) {
         if (place(b + 1) > place(b)) leaves(place(b)) = b;
       });
 }

@@ -40,13 +40,13 @@ KOKKOS_INLINE_FUNCTION int next_box(const ListSource<Space>& from, int box, cons
 template <class Space, class Visitor>
 KOKKOS_INLINE_FUNCTION void visit_near(const ListSource<Space>& from, const int leaf,
                                        const int min_sources_for_expansion, Visitor& visitor) {
-  const Box box = from.boxes(leaf);
+  const Box& box = from.boxes(leaf);
   const IndexRange around = from.touching_of(leaf);
   for (int k = around.first; k < around.first + around.count; ++k) {
     const int root = from.touching(k);
     int b = root;
     do {
-      const Box other = from.boxes(b);
+      const Box& other = from.boxes(b);
       bool goes_down = false;
       if (other.sources.count > 0) {
         if (!touch(box, other)) {

@@ -1,24 +1,19 @@
-#include "fmm/fmm_evaluator.hpp"
+#include "fmm/rank_exchange.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
-// What ranks that share a sum tell each other.
-
 namespace skein {
 
-void FmmEvaluator::require_shares(const FmmPlan& plan) {
-  if (has_shares_) return;
-  shares_ = share_tree(tree_, plan, is_symmetric_, ranks_->rank(), ranks_->size());
-  has_shares_ = true;
-  drop_far_pairs_but(shares_.target_boxes, tree_);
-  const auto is_foreign = [&](const TargetTask& task) { return !shares_.has_target(task.targets.first); };
-  tasks_.erase(std::remove_if(tasks_.begin(), tasks_.end(), is_foreign), tasks_.end());
+void RankExchange::share(Communicator& ranks, HostOctree& tree, const FmmPlan& plan, const bool is_symmetric) {
+  ranks_ = &ranks;
+  shares_ = share_tree(tree, plan, is_symmetric, ranks.rank(), ranks.size());
+  drop_far_pairs_but(shares_.target_boxes, tree);
 }
 
 template <class Real>
-void FmmEvaluator::exchange(const Coefficients<Real>& coefficients) {
+void RankExchange::exchange_coefficients(const Coefficients<HostSpace, Real>& coefficients) {
   const std::size_t n_bytes = static_cast<std::size_t>(coefficients.box_size) * sizeof(Real);
   const std::size_t n_doubles = n_bytes / sizeof(double);
   const auto count = [&](const std::vector<std::vector<int>>& boxes) {
@@ -47,25 +42,25 @@ void FmmEvaluator::exchange(const Coefficients<Real>& coefficients) {
     }
 }
 
-void FmmEvaluator::gather_velocities() {
+void RankExchange::gather_velocities(const HostOctree& tree, const HostVectors& velocity) {
   std::vector<std::size_t> counts;
   for (std::size_t rank = 0; rank + 1 < shares_.first_target.size(); ++rank)
     counts.push_back(3 * static_cast<std::size_t>(shares_.first_target[rank + 1] - shares_.first_target[rank]));
   const RankParts parts = RankParts::behind_each_other(std::move(counts));
   const IndexRange own = shares_.own_targets();
-  const auto order = tree_.target_order();
+  const auto order = tree.target_order();
   send_.resize(3 * static_cast<std::size_t>(own.count));
   for (int i = 0; i < own.count; ++i)
-    for (int c = 0; c < 3; ++c) send_[static_cast<std::size_t>(3 * i + c)] = own_velocity_(order(own.first + i), c);
+    for (int c = 0; c < 3; ++c) send_[static_cast<std::size_t>(3 * i + c)] = velocity(order(own.first + i), c);
   if (ranks_->rank() == 0) receive_.resize(parts.total());
   ranks_->gather(send_.data(), parts, receive_.data());
   if (ranks_->rank() != 0) return;
-  for (int i = own.first + own.count; i < tree_.n_targets; ++i)
+  for (int i = own.first + own.count; i < tree.n_targets; ++i)
     for (int c = 0; c < 3; ++c)
-      own_velocity_(order(i), c) = receive_[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(c)];
+      velocity(order(i), c) = receive_[3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(c)];
 }
 
-template void FmmEvaluator::exchange(const Coefficients<double>&);
-template void FmmEvaluator::exchange(const Coefficients<float>&);
+template void RankExchange::exchange_coefficients(const Coefficients<HostSpace, double>&);
+template void RankExchange::exchange_coefficients(const Coefficients<HostSpace, float>&);
 
 }  // namespace skein

@@ -12,7 +12,8 @@ struct LeafParts {
   int n_parts = 0;
   Kokkos::View<int*, Space> first;  ///< per target leaf its first part
 
-  void build(const Space& space, const Octree<Space>& tree, int most_targets);
+  /// @param wanted  places of targets in the tree's order: parts of leaves elsewhere are left out
+  void build(const Space& space, const Octree<Space>& tree, int most_targets, IndexRange wanted);
   double bytes() const { return 4.0 * static_cast<double>(leaf.extent(0) + place.extent(0) + first.extent(0)); }
 };
 

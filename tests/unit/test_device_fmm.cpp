@@ -1,7 +1,8 @@
 #include <skein/core/error.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
-#include "fmm/device_fmm_evaluator.hpp"
+#include "fmm/fmm_evaluator.hpp"
+#include "fmm/team_sum.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/reference/regularized_stokeslet_reference.hpp"
 
@@ -14,6 +15,9 @@
 // The path through a device, in the execution space, against the host's path and against long double sums.
 
 namespace skein {
+
+extern template class FmmEvaluator<TeamWorkers>;
+
 namespace {
 
 using reference::Cloud;
@@ -162,8 +166,10 @@ TEST(DeviceFmm, AgreesInSinglePrecision) {
     }
 }
 
+using Teams = FmmEvaluator<TeamWorkers>;
+
 /// The sum through teams of a size, without what FmmMobility does around it.
-std::vector<Vec3> compute_by_teams(DeviceFmmEvaluator& evaluator, const PointForces& from, const FmmOptions& options) {
+std::vector<Vec3> compute_by_teams(Teams& evaluator, const PointForces& from, const FmmOptions& options) {
   const Sources sources = on_device(from);
   EXPECT_TRUE(evaluator.take(sources, sources.position));
   EXPECT_TRUE(evaluator.compute(options, choose_fmm_plan(options, evaluator.largest_blob(), 0), viscosity));
@@ -183,7 +189,8 @@ TEST(DeviceFmm, TeamsAndRepetitionsChangeNoBit) {
       options.precision = precision;
       options.order = 4;
       options.tolerance = 1.0;
-      DeviceFmmEvaluator usual, by_kokkos(0), alone(1), in_pairs(ExecSpace().concurrency() > 1 ? 2 : 1);
+      Teams usual, by_kokkos(TeamWorkers(0)), alone(TeamWorkers(1));
+      Teams in_pairs(TeamWorkers(ExecSpace().concurrency() > 1 ? 2 : 1));
       // Few, because a team of a busy host's threads waits for the one that has no core.
       const PointForces cloud = make_forces(Cloud::cluster, 300, 1e-4, 1e-3);
       const auto first = compute_by_teams(usual, cloud, options);
@@ -202,10 +209,10 @@ TEST(DeviceFmm, FarPairsMayBeTakenAFewAtATime) {
     options.order = 4;
     options.tolerance = 1.0;
     const PointForces cloud = make_forces(Cloud::cluster, 900, 1e-4, 1e-3);
-    DeviceFmmEvaluator all_at_once;
+    Teams all_at_once;
     const auto expected = compute_by_teams(all_at_once, cloud, options);
     for (const std::size_t bytes : {std::size_t{1}, std::size_t{200'000}}) {
-      DeviceFmmEvaluator few(usual_team_size<ExecSpace>, bytes);
+      Teams few(TeamWorkers(usual_team_size<ExecSpace>, bytes));
       EXPECT_LT(relative_error(compute_by_teams(few, cloud, options), expected), 1e-13) << bytes;
       EXPECT_LT(few.statistics.memory_bytes, all_at_once.statistics.memory_bytes);
     }
@@ -220,7 +227,7 @@ TEST(DeviceFmm, WorksInTheLargeScratchMemory) {
   options.singular_cutoff = 1e-9;
   const int n_surface = 6 * 12 * 12 + 2;
   ASSERT_EQ(choose_scratch_level(static_cast<std::size_t>(n_surface) * 4 * sizeof(double) +
-                                 team_tile * sizeof(FarSource<double>)),
+                                 source_tile * sizeof(FarSource<double>)),
             1);
   BothPaths(options).expect_agreement(make_forces(Cloud::line, 600, 1e-6, 1e-6), {}, 1e-12, 1e-5);
 }

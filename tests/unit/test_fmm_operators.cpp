@@ -103,9 +103,13 @@ class HarmonicOperators : public ::testing::TestWithParam<int> {
     return dense(set().to_source, set().rank).leftCols(n()) * on_outer;
   }
   VectorXd apply(const FactoredMatrix<double>& matrix, const VectorXd& c) const {
-    VectorXd middle(math::larger(1, matrix.middle_stride())), result(set().rank_padded);
-    matrix.apply(c.data(), set().rank_padded, 1, middle.data(), result.data(), set().rank_padded);
-    return result.head(set().rank);
+    const auto times = [](const PaddedMatrix<double>& factor, const VectorXd& column) {
+      VectorXd product(factor.n_rows);
+      multiply(factor.entry.data(), factor.n_rows, factor.n_rows, factor.n_columns, column.data(), factor.n_columns, 1,
+               product.data(), factor.n_rows);
+      return product;
+    };
+    return times(matrix.last, matrix.first.empty() ? c : times(matrix.first, c)).head(set().rank);
   }
   VectorXd source_density(const VectorXd& c) const { return dense(set().source_density, n()) * c; }
   VectorXd target_density(const VectorXd& c) const { return dense(set().target_density, n()) * c; }

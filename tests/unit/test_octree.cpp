@@ -1,4 +1,4 @@
-#include "fmm/fmm_near_matches.hpp"
+#include "fmm/near_matches.hpp"
 #include "fmm/octree.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/unit/stokeslet_case.hpp"

@@ -79,7 +79,9 @@ class TreeCheck {
       ASSERT_EQ(box.octant, wanted.octant) << b;
       ASSERT_TRUE(std::equal(box.cell, box.cell + 3, wanted.cell)) << b;
       ASSERT_EQ(box.n_children, static_cast<int>(wanted.children.size())) << b;
-      if (!box.is_leaf()) ASSERT_EQ(box.first_child, wanted.children.front()) << b;
+      if (!box.is_leaf()) {
+        ASSERT_EQ(box.first_child, wanted.children.front()) << b;
+      }
       ASSERT_EQ(sorted(nodes_of(box.sources, sources)), wanted.sources) << b;
       ASSERT_EQ(sorted(nodes_of(box.targets, targets)), wanted.targets) << b;
       ASSERT_TRUE(b >= tree_.level(box.level).first && b < tree_.level(box.level).first + tree_.level(box.level).count);

@@ -1,5 +1,5 @@
-#include "fmm/fmm_near_matches.hpp"
 #include "fmm/fmm_operator_set.hpp"
+#include "fmm/near_matches.hpp"
 #include "fmm/rank_shares.hpp"
 #include "tests/reference/point_cloud.hpp"
 #include "tests/unit/stokeslet_case.hpp"

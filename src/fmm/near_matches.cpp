@@ -1,4 +1,4 @@
-#include "fmm/fmm_near_matches.hpp"
+#include "fmm/near_matches.hpp"
 
 #include "fmm/octree_walk.hpp"
 #include "kernels/stokeslet_exchange.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fmm/fmm_translations.hpp"
+#include "fmm/rank_shares.hpp"
 #include "kernels/ordered_matches.hpp"
 
 #include <vector>

@@ -6,7 +6,7 @@ namespace skein {
 
 /// Nodes in the order of the tree, in a space's memory; arrays may be longer than what is in use.
 template <class Space>
-struct DeviceNodes {
+struct SortedNodes {
   VectorView<Space> position, force;  ///< [n_sources, 3]; forces carry the scale 1 / (8 pi viscosity)
   ScalarView<Space> blob;
   VectorView<Space> target;  ///< [n_targets, 3]; `position` itself where the sources are the targets
@@ -21,8 +21,13 @@ struct UnsortedNodes {
   ConstScalarView<Space> blob;
 };
 
+/// Arrays that hold what the tree has.
+template <class Space>
+void require_nodes(const Octree<Space>& tree, SortedNodes<Space>& sorted);
+
+/// @param sources, targets  places in the tree's order that are wanted; others keep what they have
 template <class Space>
 void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNodes<Space>& nodes, double scale,
-                DeviceNodes<Space>& sorted);
+                IndexRange sources, IndexRange targets, const SortedNodes<Space>& sorted);
 
 }  // namespace skein

@@ -1,4 +1,4 @@
-#include "fmm/device_operators.hpp"
+#include "fmm/level_operators.hpp"
 
 #include <string>
 #include <utility>
@@ -7,8 +7,12 @@ namespace skein {
 
 template <class Space, class Real>
 template <class Array>
-const Real* DeviceOperators<Space, Real>::copy_array(const Array& array, Copies& used) const {
+const Real* OperatorCopies<Space, Real>::copy_array(const Array& array, Copies& used) const {
   if (array.size() == 0) return nullptr;
+  if constexpr (on_host<Space>) {
+    used.emplace(array.data(), Copy{std::make_shared<const Array>(array), {}});
+    return array.data();
+  }
   const auto again = used.find(array.data());
   if (again != used.end()) return again->second.device.data();
   const auto kept = copies_.find(array.data());
@@ -16,14 +20,14 @@ const Real* DeviceOperators<Space, Real>::copy_array(const Array& array, Copies&
   // Arrays of columns, one after the other.
   const Kokkos::View<const Real*, Kokkos::HostSpace, Kokkos::MemoryUnmanaged> entries(array.data(), array.size());
   const Kokkos::View<Real*, Space> device(
-      Kokkos::view_alloc(std::string("skein::device_operators::operator"), Kokkos::WithoutInitializing), array.size());
+      Kokkos::view_alloc(std::string("skein::level_operators::operator"), Kokkos::WithoutInitializing), array.size());
   Kokkos::deep_copy(device, entries);
   return used.emplace(array.data(), Copy{std::make_shared<const Array>(array), device}).first->second.device.data();
 }
 
 template <class Space, class Real>
-DeviceMatrix<Real> DeviceOperators<Space, Real>::copy_matrix(const PaddedMatrix<Real>& matrix, Copies& used) const {
-  DeviceMatrix<Real> result;
+Matrix<Real> OperatorCopies<Space, Real>::copy_matrix(const PaddedMatrix<Real>& matrix, Copies& used) const {
+  Matrix<Real> result;
   result.entry = copy_array(matrix.entry, used);
   result.n_rows = matrix.n_rows;
   result.n_columns = matrix.n_columns;
@@ -31,8 +35,8 @@ DeviceMatrix<Real> DeviceOperators<Space, Real>::copy_matrix(const PaddedMatrix<
 }
 
 template <class Space, class Real>
-DeviceOperatorSet<Real> DeviceOperators<Space, Real>::copy_set(const OperatorSet<Real>& set, Copies& used) const {
-  DeviceOperatorSet<Real> result;
+LevelOperators<Real> OperatorCopies<Space, Real>::copy_set(const OperatorSet<Real>& set, Copies& used) const {
+  LevelOperators<Real> result;
   result.n_surface = set.n_surface;
   result.n_padded = set.n_padded;
   result.rank_padded = set.rank_padded;
@@ -52,8 +56,8 @@ DeviceOperatorSet<Real> DeviceOperators<Space, Real>::copy_set(const OperatorSet
 }
 
 template <class Space, class Real>
-const DeviceLevels<Space, Real>& DeviceOperators<Space, Real>::require(
-    const std::vector<const OperatorSet<Real>*>& levels, const std::uint64_t transfers) {
+const Levels<Space, Real>& OperatorCopies<Space, Real>::require(const std::vector<const OperatorSet<Real>*>& levels,
+                                                                const std::uint64_t transfers) {
   std::vector<const void*> names;
   for (const auto* set : levels) {
     names.push_back(set);
@@ -61,15 +65,15 @@ const DeviceLevels<Space, Real>& DeviceOperators<Space, Real>::require(
   }
   if (names == names_ && (transfers & ~transfers_) == 0) return levels_;
   Copies used;
-  DeviceLevels<Space, Real> result;
-  const Kokkos::View<DeviceOperatorSet<Real>*, Space> sets("skein::device_operators::operator_sets", levels.size());
+  Levels<Space, Real> result;
+  const Kokkos::View<LevelOperators<Real>*, Space> sets("skein::level_operators::operator_sets", levels.size());
   const auto host = Kokkos::create_mirror_view(sets);
   for (std::size_t level = 0; level < levels.size(); ++level) {
     if (levels[level] == nullptr) continue;
     host(level) = copy_set(*levels[level], used);
     result.n_padded = host(level).n_padded;
     result.max_rank_padded = math::larger(result.max_rank_padded, host(level).rank_padded);
-    for (const DeviceMatrix<Real>& first : host(level).transfer_first)
+    for (const Matrix<Real>& first : host(level).transfer_first)
       result.max_middle = math::larger(result.max_middle, first.n_rows);
   }
   Kokkos::deep_copy(sets, host);
@@ -82,15 +86,15 @@ const DeviceLevels<Space, Real>& DeviceOperators<Space, Real>::require(
 }
 
 template <class Space, class Real>
-double DeviceOperators<Space, Real>::bytes() const {
+double OperatorCopies<Space, Real>::bytes() const {
   double sum = 0.0;
   for (const auto& [name, copy] : copies_) sum += static_cast<double>(copy.device.size() * sizeof(Real));
   return sum;
 }
 
-#define SKEIN_INSTANTIATE(S)                 \
-  template class DeviceOperators<S, double>; \
-  template class DeviceOperators<S, float>;
+#define SKEIN_INSTANTIATE(S)                \
+  template class OperatorCopies<S, double>; \
+  template class OperatorCopies<S, float>;
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

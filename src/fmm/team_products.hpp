@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fmm/device_operators.hpp"
+#include "fmm/level_operators.hpp"
 
 // Matrix products by the threads of a device: a thread has some rows of all columns, so that what it reads of the
 // matrix serves several columns and what it reads of these several rows. Every number is a sum over k in order.
@@ -19,24 +19,25 @@ struct StridedColumns {
 };
 
 /// As many columns as a thread multiplies at once, side by side; read as packs of four.
-template <class Real>
-struct alignas(16) ColumnGroup {
-  static constexpr int size = 8;
+template <class Number, int n_columns>
+struct alignas(n_columns * sizeof(Number) % 16 == 0 ? 16 : sizeof(Number)) ColumnGroup {
+  using Real = Number;
+  static constexpr int size = n_columns;
   Real value[size];
 };
-template <class Real>
+template <class Group>
 struct GroupedColumns {
-  const ColumnGroup<Real>* group;
-  KOKKOS_INLINE_FUNCTION void read(const int k, Real (&b)[ColumnGroup<Real>::size]) const {
-    const ColumnGroup<Real> columns = group[k];
-    for (int j = 0; j < ColumnGroup<Real>::size; ++j) b[j] = columns.value[j];
+  const Group* group;
+  KOKKOS_INLINE_FUNCTION void read(const int k, typename Group::Real (&b)[Group::size]) const {
+    const Group columns = group[k];
+    for (int j = 0; j < Group::size; ++j) b[j] = columns.value[j];
   }
 };
 
 /// Rows row, row + step, ... of A B; those past the end are computed again and not written.
 template <int n_rows, int n_columns, class Real, class Columns, class Write>
-KOKKOS_INLINE_FUNCTION void multiply_strided(const DeviceMatrix<Real>& a, const int row, const int step,
-                                             const Columns& b, const Write& write) {
+KOKKOS_INLINE_FUNCTION void multiply_strided(const Matrix<Real>& a, const int row, const int step, const Columns& b,
+                                             const Write& write) {
   constexpr int at_once = 4;  // entries on their way from memory
   Real sum[n_rows][n_columns] = {};
   int place[n_rows];
@@ -66,7 +67,7 @@ KOKKOS_INLINE_FUNCTION void multiply_strided(const DeviceMatrix<Real>& a, const 
 
 /// Rows lane, lane + n_threads, ... of A B, up to four at once.
 template <int n_columns, int most_rows, class Real, class Columns, class Write>
-KOKKOS_INLINE_FUNCTION void multiply_by_thread(const DeviceMatrix<Real>& a, const int lane, const int n_threads,
+KOKKOS_INLINE_FUNCTION void multiply_by_thread(const Matrix<Real>& a, const int lane, const int n_threads,
                                                const Columns& b, const Write& write) {
   for (int first = 0; first < a.n_rows;) {
     const int left = math::ceil_div(a.n_rows - first, n_threads);

@@ -1,33 +1,12 @@
 #pragma once
 
-#include "fmm/device_products.hpp"
-#include "fmm/device_translations.hpp"
+#include "fmm/passes.hpp"
+#include "fmm/team_workers.hpp"
+#include "fmm/tree_tasks.hpp"
 
 // The transfers across V lists on a device: far pairs by operator, a few at once, then the sum of each box.
 
 namespace skein {
-
-/// What a pass needs, by value for kernels.
-template <class Space, class Real, class Field>
-struct Passes {
-  OctreeCube cube;
-  Kokkos::View<const Box*, Space> boxes;
-  Lists<FarPair, Space> v_list;
-  Kokkos::View<const std::uint64_t*, Space> far_key;  ///< of V pairs in the order of their operators
-  Kokkos::View<const int*, Space> far_order, far_place;
-  Lists<int, Space> x_list;
-  DeviceNodes<Space> nodes;
-  Field field;
-  DeviceLevels<Space, Real> levels;
-  DeviceCoefficients<Space, Real> coefficients;
-
-  KOKKOS_INLINE_FUNCTION Real* source_of(const int b) const {
-    return coefficients.source.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
-  }
-  KOKKOS_INLINE_FUNCTION Real* target_of(const int b) const {
-    return coefficients.target.data() + static_cast<std::ptrdiff_t>(b) * coefficients.box_size;
-  }
-};
 
 /// Far pairs [begin, end) in the order of their operators, a batch to a team: products(pair - begin) = operator times
 /// the coefficients of its source. What is read of an operator serves the columns of a whole batch: a strip of
@@ -36,19 +15,21 @@ struct Passes {
 template <class Space, class Real, class Field>
 struct TransferProducts {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
-  using Columns = ColumnGroup<Real>;
+  using Columns = ColumnGroup<Real, 8>;
   static constexpr int group_pairs = Columns::size / Field::n_columns;  ///< of a strip
   static constexpr int most_strips = 4;
   static constexpr int most_rows = on_host<Space> ? 1 : sizeof(Real) == 8 ? 2 : 4;  ///< of a thread at once
   static constexpr int enough_teams = on_host<Space> ? 4 : 2000;                    ///< to keep a device busy
 
   Passes<Space, Real, Field> passes;
+  FarOrder<Space> far;
   int begin, end;
   Real* products;  ///< [end - begin][box_size]
   int n_strips, scratch_level;
 
-  TransferProducts(const Passes<Space, Real, Field>& of, const int first, const int last, Real* to)
-      : passes(of), begin(first), end(last), products(to) {
+  TransferProducts(const Passes<Space, Real, Field>& of, const FarOrder<Space>& order, const int first, const int last,
+                   Real* to)
+      : passes(of), far(order), begin(first), end(last), products(to) {
     for (n_strips = most_strips; n_strips > 1; n_strips /= 2)
       if ((end - begin) / batch_pairs() >= enough_teams && choose_scratch_level(scratch_bytes(), sure_scratch) == 0)
         break;
@@ -74,13 +55,13 @@ struct TransferProducts {
     const int n = group_pairs * n_strips;
     const int first = begin + team.league_rank() * n, last = math::smaller(end, first + n);
     for (int from = first; from < last;) {
-      const std::uint64_t key = passes.far_key(from);
+      const std::uint64_t key = far.pairs.key(from);
       int to = from + 1;
-      while (to < last && passes.far_key(to) == key) ++to;
-      const DeviceOperatorSet<Real>& operators = passes.levels.sets(static_cast<int>(key / n_transfers));
+      while (to < last && far.pairs.key(to) == key) ++to;
+      const LevelOperators<Real>& operators = passes.levels.sets(static_cast<int>(key / n_transfers));
       const int index = static_cast<int>(key % n_transfers);
-      const DeviceMatrix<Real> last_factor = operators.transfer_last[index];
-      const DeviceMatrix<Real> first_factor = operators.transfer_first[index];
+      const Matrix<Real> last_factor = operators.transfer_last[index];
+      const Matrix<Real> first_factor = operators.transfer_first[index];
       const bool is_factored = first_factor.n_columns > 0;
       team.team_barrier();  // what was read may be overwritten
       for (int strip = first_strip; strip < n_strips; strip += n_beside)
@@ -104,13 +85,13 @@ struct TransferProducts {
 
  private:
   /// The columns of pairs [from, to), as many as a group has; zero where there are fewer.
-  KOKKOS_INLINE_FUNCTION void gather(const DeviceOperatorSet<Real>& operators, const int from, const int to,
-                                     const int n, const int lane, const int n_threads, Columns* columns) const {
+  KOKKOS_INLINE_FUNCTION void gather(const LevelOperators<Real>& operators, const int from, const int to, const int n,
+                                     const int lane, const int n_threads, Columns* columns) const {
     if (from >= to) return;
     for (int i = lane; i < n; i += n_threads) {
       Columns group{};
       for (int k = 0; k < math::smaller(group_pairs, to - from); ++k) {
-        const FarPair pair = passes.v_list.entries(passes.far_order(from + k));
+        const FarPair pair = passes.v_list.entries(far.pairs.order(from + k));
         const Real shift[3] = {Real(2 * pair.transfer[0]), Real(2 * pair.transfer[1]), Real(2 * pair.transfer[2])};
         gather_row<Field>(passes.source_of(pair.source) + i, passes.coefficients.stride,
                           operators.sign_of(reflected_axes(pair.transfer))[i], Real(1), shift,
@@ -121,9 +102,9 @@ struct TransferProducts {
   }
 
   template <class Write>
-  KOKKOS_INLINE_FUNCTION static void multiply(const DeviceMatrix<Real>& a, const Columns* b, const int lane,
+  KOKKOS_INLINE_FUNCTION static void multiply(const Matrix<Real>& a, const Columns* b, const int lane,
                                               const int n_threads, const Write& write) {
-    multiply_by_thread<Columns::size, most_rows>(a, lane, n_threads, GroupedColumns<Real>{b}, write);
+    multiply_by_thread<Columns::size, most_rows>(a, lane, n_threads, GroupedColumns<Columns>{b}, write);
   }
 
   struct StoreColumns {
@@ -156,19 +137,20 @@ struct AddTransfers {
   using Team = typename Kokkos::TeamPolicy<Space>::member_type;
 
   Passes<Space, Real, Field> passes;
-  int first_box, begin, end;
+  Kokkos::View<const int*, Space> far_place;
+  int begin, end;
   const Real* products;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team& team) const {
-    const int b = first_box + team.league_rank();
+    const int b = team.league_rank();
     const int first = passes.v_list.first(b), last = passes.v_list.first(b + 1);
     if (first == last) return;
     const auto& coefficients = passes.coefficients;
-    const DeviceOperatorSet<Real>& operators = passes.levels.sets(passes.boxes(b).level);
+    const LevelOperators<Real>& operators = passes.levels.sets(passes.boxes(b).level);
     for (int row = team.team_rank(); row < operators.rank_padded; row += team.team_size()) {
       Real sum[Field::n_columns] = {};
       for (int k = first; k < last; ++k) {
-        const int place = passes.far_place(k);
+        const int place = far_place(k);
         if (place < begin || place >= end) continue;
         const Real sign = operators.sign_of(reflected_axes(passes.v_list.entries(k).transfer))[row];
         const Real* const product = products + static_cast<std::ptrdiff_t>(place - begin) * coefficients.box_size + row;

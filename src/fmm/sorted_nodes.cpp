@@ -1,0 +1,51 @@
+#include "fmm/sorted_nodes.hpp"
+
+namespace skein {
+
+template <class Space>
+double SortedNodes<Space>::bytes() const {
+  const std::size_t n_targets = target.data() == position.data() ? 0 : target.size();
+  return 8.0 * static_cast<double>(position.size() + force.size() + blob.size() + n_targets);
+}
+
+template <class Space>
+void require_nodes(const Octree<Space>& tree, SortedNodes<Space>& sorted) {
+  const auto n_sources = static_cast<std::size_t>(tree.n_sources), n_targets = static_cast<std::size_t>(tree.n_targets);
+  if (sorted.target.data() == sorted.position.data()) sorted.target = {};
+  require_extent(sorted.position, n_sources, "skein::sorted_nodes::position");
+  require_extent(sorted.force, n_sources, "skein::sorted_nodes::force");
+  require_extent(sorted.blob, n_sources, "skein::sorted_nodes::blob");
+  if (tree.same_nodes)
+    sorted.target = sorted.position;
+  else
+    require_extent(sorted.target, n_targets, "skein::sorted_nodes::target");
+}
+
+template <class Space>
+void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNodes<Space>& nodes, const double scale,
+                const IndexRange sources, const IndexRange targets, const SortedNodes<Space>& sorted) {
+  const UnsortedNodes<Space> from = nodes;
+  const SortedNodes<Space> to = sorted;
+  const auto source_order = tree.source_order(), target_order = tree.target_order();
+  Kokkos::parallel_for(
+      "skein::sort_sources", Kokkos::RangePolicy<Space>(space, sources.first, sources.first + sources.count),
+      KOKKOS_LAMBDA(const int i) {
+        const int at = source_order(i);
+        store(to.position, i, load(from.position, at));
+        store(to.force, i, scale * load(from.force, at));
+        to.blob(i) = from.blob(at);
+      });
+  if (!tree.same_nodes)
+    Kokkos::parallel_for(
+        "skein::sort_targets", Kokkos::RangePolicy<Space>(space, targets.first, targets.first + targets.count),
+        KOKKOS_LAMBDA(const int i) { store(to.target, i, load(from.target, target_order(i))); });
+}
+
+#define SKEIN_INSTANTIATE(S)                                                                                       \
+  template double SortedNodes<S>::bytes() const;                                                                   \
+  template void require_nodes<S>(const Octree<S>&, SortedNodes<S>&);                                               \
+  template void sort_nodes<S>(const S&, const Octree<S>&, const UnsortedNodes<S>&, double, IndexRange, IndexRange, \
+                              const SortedNodes<S>&);
+SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
+
+}  // namespace skein

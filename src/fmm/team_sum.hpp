@@ -1,0 +1,82 @@
+#pragma once
+
+#include "fmm/passes.hpp"
+#include "fmm/team_workers.hpp"
+#include "fmm/tree_tasks.hpp"
+
+#include <algorithm>
+
+namespace skein {
+
+inline constexpr int team_part_targets = 128;  ///< of a leaf, that a team takes at once
+
+/// velocity(original index) = near field + far field of the coefficients, a team for every part of a leaf.
+template <class Space, class Near, class Real, class Field>
+void sum_leaf_velocities_by_teams(const Space& space, const Passes<Space, Real, Field>& passes,
+                                  const LeafParts<Space>& parts, const VectorView<Space>& velocity, int team_size);
+
+/// Across the V lists (M2L), as many far pairs at once as there is room for their products; overwrites the coefficients
+/// for targets.
+/// @param products  [at least one box's coefficients]
+template <class Space, class Real, class Field>
+void transfer_by_teams(const Space& space, const Passes<Space, Real, Field>& passes, const FarOrder<Space>& far,
+                       const Kokkos::View<Real*, Space>& products, int team_size);
+
+/// How a sum goes through the execution space by teams of threads: plain kernels, for FmmEvaluator.
+class TeamWorkers {
+ public:
+  using Space = ExecSpace;
+  static constexpr int part_targets = team_part_targets;
+  static constexpr bool meets_pairs_once = false;  ///< every pair is met from both sides, by direct sums, too
+
+  /// @param team_size           threads of a team, 0: as Kokkos likes; the result does not depend on it
+  /// @param most_product_bytes  room for the products of far pairs: every time that it is full, all lists are gone
+  ///                            through. Sums are in another order then
+  explicit TeamWorkers(const int team_size = usual_team_size<ExecSpace>,
+                       const std::size_t most_product_bytes = std::size_t{1} << 29)
+      : team_size_(team_size), most_product_bytes_(most_product_bytes) {}
+
+  void take(const Space& space, Octree<Space>& tree) { far_.build(space, tree); }
+
+  template <class Work>
+  void for_boxes(const char* label, const IndexRange boxes, const Work& work) const {
+    for_boxes_by_teams(Space(), label, boxes, team_size_, work);
+  }
+
+  template <class Real, class Field>
+  void transfer(const Passes<Space, Real, Field>& passes, const std::vector<IndexRange>& /*boxes: all*/) const {
+    const auto box_size = static_cast<std::size_t>(math::larger(1, passes.coefficients.box_size));
+    const auto n_pairs = static_cast<std::size_t>(math::larger(1, passes.v_list.n_entries));
+    const std::size_t n = std::clamp(most_product_bytes_ / (sizeof(Real) * box_size), std::size_t{1}, n_pairs);
+    auto& products = products_of<Real>();
+    require_extent(products, n * box_size, "skein::team_workers::products");
+    transfer_by_teams(Space(), passes, far_, products, team_size_);
+  }
+
+  template <class Near, class Real, class Field>
+  void sum_leaves(const Passes<Space, Real, Field>& passes, const LeafParts<Space>& parts,
+                  const VectorView<Space>& velocity) const {
+    sum_leaf_velocities_by_teams<Space, Near>(Space(), passes, parts, velocity, team_size_);
+  }
+
+  double bytes() const {
+    return far_.bytes() + static_cast<double>(8 * products_.size() + 4 * single_products_.size());
+  }
+
+ private:
+  template <class Real>
+  Kokkos::View<Real*, Space>& products_of() const {
+    if constexpr (std::is_same_v<Real, double>)
+      return products_;
+    else
+      return single_products_;
+  }
+
+  int team_size_;
+  std::size_t most_product_bytes_;
+  FarOrder<Space> far_;
+  mutable Kokkos::View<double*, Space> products_;  ///< of far pairs, before they are added
+  mutable Kokkos::View<float*, Space> single_products_;
+};
+
+}  // namespace skein
