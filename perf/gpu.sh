@@ -136,7 +136,7 @@ collect() {
   begun=()
 }
 for test in test_launch_counts test_machine_rates test_stokeslet_direct test_spring_force test_combination test_sections \
-  test_penetration test_device_octree test_device_fmm test_section_repulsion test_implicit_parts test_restart test_force \
+  test_penetration test_octree_lists test_device_fmm test_section_repulsion test_implicit_parts test_restart test_force \
   test_mobility; do
   together "$test" 120 "$bin/$test"
 done
@@ -145,7 +145,7 @@ for tool in memcheck racecheck; do
   sanitize=(compute-sanitizer --tool "$tool" --error-exitcode 3)
   together "$tool of direct sums" 80 "${sanitize[@]}" "$bin/test_stokeslet_direct" --gtest_filter='StokesletTeams.*'
   together "$tool of springs" 80 "${sanitize[@]}" "$bin/test_spring_force"
-  together "$tool of the tree" 80 "${sanitize[@]}" "$bin/test_device_octree"
+  together "$tool of the tree" 80 "${sanitize[@]}" "$bin/test_octree_lists"
   together "$tool of the passes" 80 "${sanitize[@]}" "$bin/test_device_fmm" \
     --gtest_filter='*EveryKind*:*SinglePrecision*:*TargetsApart*'
 done
