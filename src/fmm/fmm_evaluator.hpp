@@ -2,7 +2,7 @@
 
 #include <skein/arrays/combination.hpp>
 
-#include "fmm/box_passes.hpp"
+#include "fmm/coefficient_passes.hpp"
 #include "fmm/fmm_choices.hpp"
 #include "fmm/operator_store.hpp"
 #include "fmm/rank_exchange.hpp"

@@ -82,6 +82,15 @@ struct Octree {
 
 using HostOctree = Octree<HostSpace>;
 
+/// The parts of the build before the boxes: where the root lies, from bounds and a sample of the nodes ...
+template <class Space>
+OctreeCube choose_cube(const Space& space, Octree<Space>& tree, const ConstVectorView<Space>& source,
+                       const ConstVectorView<Space>& target);
+/// ... and the keys of every stride-th node, in the order of the nodes.
+template <class Space>
+void make_keys(const Space& space, const ConstVectorView<Space>& nodes, const KeyOf& key_of, int stride,
+               const KeyedOrder<Space>& keyed);
+
 /// The parts of the build after the boxes: touching boxes, V and X ...
 template <class Space>
 void build_far_lists(const Space& space, Octree<Space>& tree);
