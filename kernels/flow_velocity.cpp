@@ -1,5 +1,6 @@
 #include "kernels/flow_velocity.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 namespace skein {
@@ -25,11 +26,11 @@ struct FlowSum {
 };
 
 template <int capacity, class Space>
-void launch(const Space& space, const FlowTerms& terms, const ConstVectorView<Space>& position,
-            const VectorView<Space>& velocity, const bool adds) {
+void launch_sum(const Space& space, const FlowTerms& terms, const ConstVectorView<Space>& position,
+                const VectorView<Space>& velocity, const bool adds) {
   FlowSum<Space, capacity> sum{{}, terms.n_terms, position, velocity, adds};
   for (int t = 0; t < terms.n_terms; ++t) sum.term[t] = terms.term[t];
-  Kokkos::parallel_for("skein::add_flow_velocity", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)), sum);
+  launch<Space>("skein::add_flow_velocity", space, Calls{position.extent_int(0), 10.0}, sum);
 }
 
 template <class Space>
@@ -37,9 +38,9 @@ void sum_up(const Space& space, const FlowTerms& terms, const ConstVectorView<Sp
             const VectorView<Space>& velocity, const bool adds) {
   SKEIN_REQUIRE(position.extent(0) == velocity.extent(0), "positions and velocities differ in number");
   if (terms.n_terms <= 1)
-    launch<1, Space>(space, terms, position, velocity, adds);
+    launch_sum<1, Space>(space, terms, position, velocity, adds);
   else
-    launch<FlowTerms::n_allowed, Space>(space, terms, position, velocity, adds);
+    launch_sum<FlowTerms::n_allowed, Space>(space, terms, position, velocity, adds);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "kernels/penetration.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "kernels/tube_prism.hpp"
@@ -149,10 +150,9 @@ NodesInside compute_penetration(const Space& space, const TubeSurfaces<Space>& s
   SKEIN_REQUIRE(depth.extent(0) == surfaces.position.extent(0), "one depth for each node is needed");
   using Search = PenetrationSearch<Space>;
   NodesInside inside;
-  Kokkos::parallel_reduce(
-      "skein::compute_penetration",
-      Kokkos::RangePolicy<Space>(space, 0, surfaces.sections.fiber_of_block.extent_int(0) * Search::items_per_block),
-      Search{surfaces, depth}, Kokkos::Sum<int>(inside.count), Kokkos::Max<double>(inside.depth));
+  launch_reduction<Space>("skein::compute_penetration", space,
+                          Calls{surfaces.sections.fiber_of_block.extent_int(0) * Search::items_per_block, 2.5e3},
+                          Search{surfaces, depth}, Kokkos::Sum<int>(inside.count), Kokkos::Max<double>(inside.depth));
   if (inside.count == 0) inside.depth = 0.0;
   return inside;
 }

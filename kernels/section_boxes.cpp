@@ -1,5 +1,6 @@
 #include "kernels/section_boxes.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 namespace skein {
@@ -20,8 +21,8 @@ void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes,
                            const VectorView<Space>& mean) {
   SKEIN_REQUIRE(mean.extent(0) == boxes.centroid.extent(0), "one mean for each section is needed");
   const SectionBoxes<Space> b = boxes;
-  Kokkos::parallel_for(
-      "skein::compute_section_means", section_policy(space, boxes), KOKKOS_LAMBDA(const int item) {
+  launch<Space>(
+      "skein::compute_section_means", space, section_calls<Space>(boxes), KOKKOS_LAMBDA(const int item) {
         const int block = item / sections_per_block;
         const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
         const int section = fiber.first_section_of(block) + item % sections_per_block;
@@ -34,18 +35,16 @@ template <class Space>
 void locate_sections(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position) {
   compute_section_means<Space>(space, boxes, position, boxes.centroid);
   const SectionBoxes<Space> b = boxes;
-  Kokkos::parallel_for(
-      "skein::enclose_blocks", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0)),
-      KOKKOS_LAMBDA(const int block) {
+  launch<Space>(
+      "skein::enclose_blocks", space, Calls{boxes.fiber_of_block.extent_int(0), 50.0}, KOKKOS_LAMBDA(const int block) {
         const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
         Vec3 low, high;
         enclose<Space>(b.centroid, b.centroid, fiber.first_section_of(block), fiber.end_section_of(block), low, high);
         store(b.block_low, block, low);
         store(b.block_high, block, high);
       });
-  Kokkos::parallel_for(
-      "skein::enclose_fibers", Kokkos::RangePolicy<Space>(space, 0, boxes.fiber.extent_int(0)),
-      KOKKOS_LAMBDA(const int f) {
+  launch<Space>(
+      "skein::enclose_fibers", space, Calls{boxes.fiber.extent_int(0), 50.0}, KOKKOS_LAMBDA(const int f) {
         Vec3 low, high;
         enclose<Space>(b.block_low, b.block_high, b.fiber(f).first_block, b.fiber(f).end_block(), low, high);
         store(b.fiber_low, f, low);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/arrays/launch.hpp>
 #include <skein/arrays/types.hpp>
 
 namespace skein {
@@ -44,8 +45,8 @@ struct SectionBoxes {
 
 /// A loop over the places of all blocks, some of which are behind their fiber's last section.
 template <class Space>
-Kokkos::RangePolicy<Space> section_policy(const Space& space, const SectionBoxes<Space>& boxes) {
-  return Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0) * sections_per_block);
+Calls section_calls(const SectionBoxes<Space>& boxes) {
+  return {boxes.fiber_of_block.extent_int(0) * sections_per_block, 30.0};
 }
 
 /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].

@@ -36,8 +36,8 @@ int find_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, const
                      const double max_ratio) {
   const SectionBoxes<Space> b = boxes;
   int first = no_node;
-  Kokkos::parallel_reduce(
-      "skein::find_faulty_node", section_policy(space, boxes),
+  launch_reduction<Space>(
+      "skein::find_faulty_node", space, section_calls<Space>(boxes),
       KOKKOS_LAMBDA(const int item, int& smallest) {
         const int block = item / sections_per_block;
         const FiberSections& fiber = b.fiber(b.fiber_of_block(block));

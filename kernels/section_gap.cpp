@@ -1,5 +1,7 @@
 #include "kernels/section_gap.hpp"
 
+#include <skein/arrays/launch.hpp>
+
 #include <limits>
 
 namespace skein {
@@ -68,9 +70,9 @@ struct BlockGap {
 template <class Space>
 double compute_smallest_gap(const Space& space, const SectionBoxes<Space>& boxes) {
   double smallest = infinity;
-  Kokkos::parallel_reduce(
-      "skein::compute_smallest_gap",
-      Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0) * BlockGap<Space>::items_per_block),
+  launch_reduction<Space>(
+      "skein::compute_smallest_gap", space,
+      Calls{boxes.fiber_of_block.extent_int(0) * BlockGap<Space>::items_per_block, 16.0 * boxes.centroid.extent_int(0)},
       BlockGap<Space>{boxes}, Kokkos::Min<double>(smallest));
   return smallest < std::numeric_limits<double>::max() ? smallest : infinity;  // the reduction begins with the latter
 }

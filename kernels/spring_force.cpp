@@ -1,5 +1,6 @@
 #include "kernels/spring_force.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "kernels/spring_teams.hpp"
@@ -48,14 +49,14 @@ KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& spr
 
 void add_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
                  const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
-  using Policy = Kokkos::RangePolicy<HostSpace>;
   const int n_nodes = force.extent_int(0);
   const int n_tiles = springs.fiber_of_tile.extent_int(0);
-  Kokkos::parallel_for("skein::add_spring_force", Policy(space, 0, n_tiles),
-                       [=](const int tile) { add_tile_force(springs, tile, position, force); });
+  const double per_tile = 25.0 * n_nodes / math::larger(1, n_tiles);
+  launch<HostSpace>("skein::add_spring_force", space, Calls{n_tiles, per_tile},
+                    [=](const int tile) { add_tile_force(springs, tile, position, force); });
 
   const int n_reactions = springs.reaction.extent_int(0);
-  Kokkos::parallel_for("skein::add_spring_reaction", Policy(space, 0, n_nodes), [=](const int node) {
+  launch<HostSpace>("skein::add_spring_reaction", space, Calls{n_nodes, 3.0}, [=](const int node) {
     for (int row = node; row < n_reactions; row += n_nodes)
       store(force, node, load(force, node) + load(springs.reaction, row));
   });
@@ -85,10 +86,10 @@ void sum_by_teams(const Space& space, const SpringArrays<Space>& springs, const 
 void add_by_nodes_of_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
                           const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
   check_extents<HostSpace>(springs, position, force);
-  Kokkos::parallel_for("skein::add_spring_force_by_nodes",
-                       Kokkos::RangePolicy<HostSpace>(space, 0, position.extent_int(0)), [=](const int node) {
-                         store(force, node, load(force, node) + force_on_node<HostSpace>(springs, position, node));
-                       });
+  launch<HostSpace>("skein::add_spring_force_by_nodes", space, Calls{position.extent_int(0), 100.0},
+                    [=](const int node) {
+                      store(force, node, load(force, node) + force_on_node<HostSpace>(springs, position, node));
+                    });
 }
 
 }  // namespace
@@ -125,8 +126,10 @@ void compute_section_energy(const Space& space, const SpringArrays<Space>& sprin
                 "positions and nodes of the springs differ in number");
   SKEIN_REQUIRE(section_energy.extent(0) == springs.fiber_of_section.extent(0),
                 "one energy for each section is needed");
-  Kokkos::parallel_for(
-      "skein::compute_section_energy", Kokkos::RangePolicy<Space>(space, 0, section_energy.extent_int(0)),
+  const int n_sections = section_energy.extent_int(0);
+  const double nodes_per_section = 1.0 * position.extent_int(0) / math::larger(1, n_sections);
+  launch<Space>(
+      "skein::compute_section_energy", space, Calls{n_sections, 3.0 * nodes_per_section * nodes_per_section},
       KOKKOS_LAMBDA(const int section) {
         section_energy(section) = energy_from_section<Space>(springs, position, section);
       });

@@ -1,5 +1,6 @@
 #include "kernels/spring_strain.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "kernels/spring_node.hpp"
@@ -12,8 +13,8 @@ double compute_largest_strain(const Space& space, const SpringArrays<Space>& spr
   SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0),
                 "positions and the nodes of the springs differ in number");
   double largest = 0.0;
-  Kokkos::parallel_reduce(
-      "skein::compute_largest_strain", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
+  launch_reduction<Space>(
+      "skein::compute_largest_strain", space, Calls{position.extent_int(0), 100.0},
       KOKKOS_LAMBDA(const int node, double& found) {
         const Vec3 x = load(position, node);
         for_each_spring<Space>(springs, node, [&](const int other, const double, const double inverse_rest_length) {

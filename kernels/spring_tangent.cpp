@@ -1,5 +1,6 @@
 #include "kernels/spring_tangent.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "kernels/spring_node.hpp"
@@ -33,9 +34,8 @@ void add_spring_force_change(const Space& space, const SpringArrays<Space>& spri
   SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0) && displacement.extent(0) == position.extent(0) &&
                     change.extent(0) == position.extent(0),
                 "positions, displacements, changes and the nodes of the springs differ in number");
-  Kokkos::parallel_for(
-      "skein::add_spring_force_change", Kokkos::RangePolicy<Space>(space, 0, position.extent_int(0)),
-      KOKKOS_LAMBDA(const int node) {
+  launch<Space>(
+      "skein::add_spring_force_change", space, Calls{position.extent_int(0), 100.0}, KOKKOS_LAMBDA(const int node) {
         store(change, node, load(change, node) + change_on_node<Space>(springs, position, displacement, node));
       });
 }

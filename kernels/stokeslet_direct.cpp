@@ -1,5 +1,6 @@
 #include "kernels/stokeslet_direct.hpp"
 
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "kernels/stokeslet_block.hpp"
@@ -14,19 +15,18 @@ void add_by_blocks(const HostSpace& space, const HostSources& sources, const Con
                    const VectorView<HostSpace>& velocity) {
   const int n_sources = sources.position.extent_int(0);
   const int n_targets = target.extent_int(0);
-  Kokkos::parallel_for("skein::add_stokeslet_velocity",
-                       Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(
-                           space, 0, math::ceil_div(n_targets, block_targets)),
-                       [=](const int block) {
-                         const int first = block * block_targets;
-                         bool given = false;
-                         const auto all_sources = [&](IndexRange& run) {
-                           run = {0, n_sources};
-                           return !std::exchange(given, true);
-                         };
-                         add_runs_to_targets<Real>(sources, all_sources, target,
-                                                   {first, math::smaller(block_targets, n_targets - first)}, velocity);
-                       });
+  const Calls blocks{math::ceil_div(n_targets, block_targets), 1.0 * block_targets * n_sources};
+  launch<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>(
+      "skein::add_stokeslet_velocity", space, blocks, [=](const int block) {
+        const int first = block * block_targets;
+        bool given = false;
+        const auto all_sources = [&](IndexRange& run) {
+          run = {0, n_sources};
+          return !std::exchange(given, true);
+        };
+        add_runs_to_targets<Real>(sources, all_sources, target,
+                                  {first, math::smaller(block_targets, n_targets - first)}, velocity);
+      });
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
 #include "kernels/tube_surface.hpp"
 
+#include <skein/arrays/launch.hpp>
+
 namespace skein {
 
 template <class Space>
 void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces) {
   compute_section_means<Space>(space, surfaces.sections, surfaces.position, surfaces.sections.centroid);
   const TubeSurfaces<Space> s = surfaces;
-  Kokkos::parallel_for(
-      "skein::enclose_rings", section_policy(space, surfaces.sections), KOKKOS_LAMBDA(const int item) {
+  launch<Space>(
+      "skein::enclose_rings", space, section_calls<Space>(surfaces.sections), KOKKOS_LAMBDA(const int item) {
         const int block = item / sections_per_block;
         const FiberSections& fiber = s.sections.fiber(s.sections.fiber_of_block(block));
         const int section = fiber.first_section_of(block) + item % sections_per_block;
@@ -22,8 +24,8 @@ void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces) {
         store(s.ring_low, section, low);
         store(s.ring_high, section, high);
       });
-  Kokkos::parallel_for(
-      "skein::enclose_prisms", Kokkos::RangePolicy<Space>(space, 0, surfaces.sections.fiber_of_block.extent_int(0)),
+  launch<Space>(
+      "skein::enclose_prisms", space, Calls{surfaces.sections.fiber_of_block.extent_int(0), 50.0},
       KOKKOS_LAMBDA(const int block) {
         const FiberSections& fiber = s.sections.fiber(s.sections.fiber_of_block(block));
         const int first = fiber.first_section_of(block);
@@ -34,9 +36,8 @@ void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces) {
         store(s.block_low, block, low);
         store(s.block_high, block, high);
       });
-  Kokkos::parallel_for(
-      "skein::enclose_tubes", Kokkos::RangePolicy<Space>(space, 0, surfaces.sections.fiber.extent_int(0)),
-      KOKKOS_LAMBDA(const int f) {
+  launch<Space>(
+      "skein::enclose_tubes", space, Calls{surfaces.sections.fiber.extent_int(0), 50.0}, KOKKOS_LAMBDA(const int f) {
         const FiberSections& fiber = s.sections.fiber(f);
         Vec3 low, high;
         enclose<Space>(s.block_low, s.block_high, fiber.first_block, fiber.end_block(), low, high);

@@ -1,4 +1,5 @@
 #include <skein/arrays/combination.hpp>
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include <utility>
@@ -45,8 +46,8 @@ const ScalarView<Space>& require_chunk_sums(const int n_chunks) {
 template <class Space, class... Terms>
 void run(const Space& space, const VectorView<Space>& result, const Terms&... terms) {
   SKEIN_REQUIRE(((terms.vectors.extent(0) == result.extent(0)) && ...), "arrays of a combination differ in length");
-  Kokkos::parallel_for("skein::combine", Kokkos::RangePolicy<Space>(space, 0, result.extent_int(0)),
-                       Combination<Space, sizeof...(Terms)>{{terms.factor...}, {terms.vectors...}, result});
+  launch<Space>("skein::combine", space, Calls{result.extent_int(0), 10.0},
+                Combination<Space, sizeof...(Terms)>{{terms.factor...}, {terms.vectors...}, result});
 }
 
 }  // namespace
@@ -72,8 +73,8 @@ double dot_product(const Space& space, const ConstVectorView<Space>& a, const Co
   const int n_nodes = a.extent_int(0), chunk_nodes = choose_chunk<Space>(a.extent_int(0));
   const int n_chunks = math::ceil_div(n_nodes, chunk_nodes);
   const ScalarView<Space> chunk_sum = require_chunk_sums<Space>(n_chunks);
-  Kokkos::parallel_for(
-      "skein::dot_product", Kokkos::RangePolicy<Space>(space, 0, n_chunks), KOKKOS_LAMBDA(const int chunk) {
+  launch<Space>(
+      "skein::dot_product", space, Calls{n_chunks, 1.0 * chunk_nodes}, KOKKOS_LAMBDA(const int chunk) {
         const int last = math::smaller(n_nodes, (chunk + 1) * chunk_nodes);
         double sum = 0.0;
         for (int i = chunk * chunk_nodes; i < last; ++i)

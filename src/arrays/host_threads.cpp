@@ -38,18 +38,24 @@ int read_number(const char* variable) {
   return number;
 }
 
-/// As many as were asked for; else as the OpenMP library would take, which has read OMP_NUM_THREADS.
-int find_number(const int asked) {
+/// As many as were asked for; else as the OpenMP library would take, which has read OMP_NUM_THREADS, but no more than
+/// are useful.
+HostThreads find_number(const int asked, const int useful) {
   const int for_kokkos = read_number("KOKKOS_NUM_THREADS");
+  const auto obey = [&](const int number, const char* who) { return HostThreads{number, useful, number, who}; };
   if (asked > 0) {
     check_number(asked, "--threads", std::to_string(asked));
-    return asked;
+    return obey(asked, "--threads");
   }
-  if (for_kokkos > 0) return for_kokkos;
+  if (for_kokkos > 0) return obey(for_kokkos, "KOKKOS_NUM_THREADS");
   const int by_library = omp_get_max_threads();
   const char* wanted = std::getenv("OMP_NUM_THREADS");
-  if (wanted != nullptr && *wanted != '\0') check_number(by_library, "OMP_NUM_THREADS", wanted);
-  return std::min(by_library, most_host_threads);  // of a machine with more processors
+  if (wanted != nullptr && *wanted != '\0') {
+    check_number(by_library, "OMP_NUM_THREADS", wanted);
+    return obey(by_library, "OMP_NUM_THREADS");
+  }
+  const int possible = std::min(by_library, most_host_threads);  // of a machine with more processors
+  return {std::clamp(useful, 1, possible), useful, possible, ""};
 }
 
 /// Kokkos relies on getting all of them.
@@ -71,20 +77,20 @@ void check_that_all_come(const int n_threads) {
 
 int count_host_threads([[maybe_unused]] const int asked) {
 #if defined(KOKKOS_ENABLE_OPENMP)
-  return find_number(asked);
+  return find_number(asked, most_host_threads).number;
 #else
   return 1;
 #endif
 }
 
-int choose_host_threads([[maybe_unused]] const int asked) {
+HostThreads choose_host_threads([[maybe_unused]] const int asked, [[maybe_unused]] const int useful) {
 #if defined(KOKKOS_ENABLE_OPENMP)
-  const int n_threads = find_number(asked);
-  check_thread_stacks(n_threads);
-  check_that_all_come(n_threads);
-  return n_threads;
+  HostThreads chosen = find_number(asked, useful);
+  check_thread_stacks(chosen.number);
+  check_that_all_come(chosen.number);
+  return chosen;
 #else
-  return 0;
+  return {};
 #endif
 }
 

@@ -25,7 +25,7 @@ std::string compiler() {
 #endif
 }
 
-std::string host_threads() {
+std::string name_host_threads() {
 #if defined(KOKKOS_ENABLE_OPENMP)
   return fmt::format("{} with {} threads", HostSpace::name(), HostSpace().concurrency());
 #else
@@ -33,10 +33,19 @@ std::string host_threads() {
 #endif
 }
 
+HostThreads& last_choice() {
+  static HostThreads choice;
+  return choice;
+}
+
 }  // namespace
 
-Runtime::Runtime(const int threads) {
-  const int n_threads = choose_host_threads(threads);
+const HostThreads& host_threads() { return last_choice(); }
+
+Runtime::Runtime(const int threads, const int useful) {
+  HostThreads& chosen = last_choice();
+  chosen = choose_host_threads(threads, useful);
+  const int n_threads = have_host_threads ? chosen.number : 0;
   try {
     initialize_kokkos(n_threads);
   } catch (const std::exception& error) {
@@ -50,8 +59,8 @@ Runtime::~Runtime() { Kokkos::finalize(); }
 KernelPath default_path() { return on_host<ExecSpace> ? KernelPath::host : KernelPath::device; }
 
 std::string describe_backend() {
-  if constexpr (on_host<ExecSpace>) return host_threads();
-  return fmt::format("{}, host {}", ExecSpace::name(), host_threads());
+  if constexpr (on_host<ExecSpace>) return name_host_threads();
+  return fmt::format("{}, host {}", ExecSpace::name(), name_host_threads());
 }
 
 std::string describe_build() {

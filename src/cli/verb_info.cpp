@@ -26,43 +26,52 @@ struct InfoOptions {
   bool json = false;
 };
 
-/// The last line of the log that tells of ranks, without its time.
-std::string find_ranks(const RunFolder& folder) {
+/// The last line of the log that begins with this mark, after its time, from there on. @param otherwise  where there is
+/// none
+std::string find_in_log(const RunFolder& folder, const std::string& mark, const std::string& otherwise) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(folder.run_log(), ignored)) return "not known";
-  const std::string log = read_file(folder.run_log()), mark = "ranks: ";
+  const std::string log = read_file(folder.run_log());
   const std::size_t last = log.rfind(mark);
-  if (last == std::string::npos) return "none, the run has one process";
+  if (last == std::string::npos) return otherwise;
   const std::size_t first = last + mark.size();
   return log.substr(first, log.find('\n', first) - first);
 }
 
-void print_lines(const std::string& scene, const std::string& mobility, const std::string& ranks,
-                 const RunSummary& summary) {
-  print_result(
-      fmt::format("title: {}\nstatus: {}\nscene: {}\nmobility: {}\nranks: {}\nframes: {}\nsteps: {}\nsegments: {}\n",
-                  make_terminal_line(summary.title), make_terminal_line(summary.status), make_terminal_line(scene),
-                  mobility, make_terminal_line(ranks), summary.frames, summary.steps, summary.segments));
+/// What the scene, the log and its folder say of a run, beside the summary of its trajectory.
+struct RunWords {
+  std::string scene, mobility, ranks, threads;
+};
+
+void print_lines(const RunWords& words, const RunSummary& summary) {
+  print_result(fmt::format(
+      "title: {}\nstatus: {}\nscene: {}\nmobility: {}\nranks: {}\nthreads: {}\nframes: {}\nsteps: {}\nsegments: {}\n",
+      make_terminal_line(summary.title), make_terminal_line(summary.status), make_terminal_line(words.scene),
+      words.mobility, make_terminal_line(words.ranks), make_terminal_line(words.threads), summary.frames, summary.steps,
+      summary.segments));
   if (std::isfinite(summary.last_time)) print_result(fmt::format("last time: {}\n", summary.last_time));
 }
 
-void print_json(const std::string& scene, const std::string& mobility, const std::string& ranks,
-                const RunSummary& summary) {
+void print_json(const RunWords& words, const RunSummary& summary) {
   JsonWriter json(/*n_open_levels=*/1);
   json.begin_object().member("title", summary.title).member("status", summary.status);
-  json.member("scene", scene).member("mobility", mobility).member("ranks", ranks).member("frames", summary.frames);
-  json.member("steps", summary.steps).member("segments", summary.segments).member("last_time", summary.last_time);
+  json.member("scene", words.scene).member("mobility", words.mobility).member("ranks", words.ranks);
+  json.member("threads", words.threads)
+      .member("frames", summary.frames)
+      .member("steps", summary.steps)
+      .member("segments", summary.segments)
+      .member("last_time", summary.last_time);
   print_result(json.end_object().take() + "\n");
 }
 
 int print_info(const InfoOptions& options) {
   const RunSummary summary = read_run_summary(options.folder);
   const RunFolder folder = RunFolder::open(options.folder);
-  const std::string scene = folder.scene().string();
   const SceneConfig config = read_run_scene(folder);
-  const std::string mobility = describe_choice(choose_mobility(config), config);
-  const std::string ranks = find_ranks(folder);
-  options.json ? print_json(scene, mobility, ranks, summary) : print_lines(scene, mobility, ranks, summary);
+  const RunWords words{folder.scene().string(), describe_choice(choose_mobility(config), config),
+                       find_in_log(folder, " s  ranks: ", "none, the run has one process"),
+                       find_in_log(folder, " s  threads: ", "not known")};
+  options.json ? print_json(words, summary) : print_lines(words, summary);
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/duration.hpp>
 #include <skein/io/run_lock.hpp>
+#include <skein/io/run_scene.hpp>
 
 #include "cli/common_arguments.hpp"
 #include "cli/terminal.hpp"
@@ -12,6 +13,7 @@
 #include "runs/run_control.hpp"
 #include "runs/shared_run.hpp"
 #include "runs/simulate.hpp"
+#include "runs/useful_threads.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +43,8 @@ int finish_run(const RunFolder& folder, const SceneConfig& scene, const Checkpoi
 
 int resume_run(const ResumeOptions& options, Communicator* ranks) {
   const RunFolder folder = RunFolder::open_begun(options.folder);
-  const Runtime runtime(options.threads);  // before anything is changed: there may be no such threads
+  // Before anything is changed: there may be no such threads.
+  const Runtime runtime(options.threads, count_useful_threads(read_run_scene(folder)));
   const RunLock lock(folder);
   if (!lock.note().empty()) print_warning(lock.note());
   const Resumption run = prepare_resumption(folder, options.overrides, options.from_start);

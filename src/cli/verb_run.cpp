@@ -12,6 +12,7 @@
 #include "runs/run_start.hpp"
 #include "runs/shared_run.hpp"
 #include "runs/simulate.hpp"
+#include "runs/useful_threads.hpp"
 #include "studies/plan.hpp"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ int run_scene(const RunOptions& options, Communicator* ranks) {
   if (!run.what_happened.empty()) print_warning(run.what_happened);
   if (!options.quiet && !placed.warnings.empty()) print_warning(describe_problems(placed.warnings));
 
-  const Runtime runtime(options.threads);
+  const Runtime runtime(options.threads, count_useful_threads(placed.config));
   if (options.plan) plan_scene(placed, *options.plan, options.quiet);
   if (options.dry_run) {
     print_result(describe_dry_run(placed.config) + "\n");

@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 #include <skein/fibers/spring_network.hpp>
 
@@ -103,8 +104,8 @@ void add_by_bends(const char* label, const ConstScalars& resistance, const Ends&
   SKEIN_REQUIRE(ends_of.position.extent(0) == resistance.extent(0) && sum.extent(0) == resistance.extent(0),
                 "positions and forces are those of the fibers' nodes");
   const int n_nodes = sum.extent_int(0);
-  Kokkos::parallel_for(
-      label, Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, n_nodes), KOKKOS_LAMBDA(const int node) {
+  launch<ExecSpace>(
+      label, ExecSpace(), Calls{n_nodes, 50.0}, KOKKOS_LAMBDA(const int node) {
         Vec3 own;
         for (int bend = math::larger(0, node - 1); bend <= math::smaller(n_nodes - 1, node + 1); ++bend) {
           if (resistance(bend) == 0.0) continue;

@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/fibers/start_shape.hpp>
 
 #include "force_table.hpp"
@@ -94,9 +95,8 @@ class Clamps final : public Force {
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     const LoadedSections<Clamp> loads = loads_;
-    Kokkos::parallel_for(
-        "skein::add_clamp_forces", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::add_clamp_forces", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           for (int i = section.first_load; i < section.end_load; ++i)
             for (int place = 0; place < section.n_nodes; ++place) {
@@ -111,9 +111,8 @@ class Clamps final : public Force {
   void add_force_changes(double /*time*/, const ConstVectors& /*position*/, const ConstVectors& displacement,
                          const Vectors& change) const override {
     const LoadedSections<Clamp> loads = loads_;
-    Kokkos::parallel_for(
-        "skein::add_clamp_force_changes", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::add_clamp_force_changes", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           double stiffness = 0.0;
           for (int i = section.first_load; i < section.end_load; ++i) stiffness += loads.load(i).stiffness;
@@ -125,9 +124,8 @@ class Clamps final : public Force {
   void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
     const LoadedSections<Clamp> loads = loads_;
     const Scalars of_section = of_section_;
-    Kokkos::parallel_for(
-        "skein::compute_clamp_energy", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::compute_clamp_energy", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const int n = loads.section(s).n_nodes;
           of_section(s) = sum_over_nodes(loads, s, position, [&](const Clamp& clamp, const int place, const Vec3 x) {
             const Vec3 d = clamp.anchor(time, place, n) - x;
@@ -142,9 +140,8 @@ class Clamps final : public Force {
                         std::vector<double>& power) const override {
     const LoadedSections<Clamp> loads = loads_;
     const Scalars of_section = of_section_;
-    Kokkos::parallel_for(
-        "skein::compute_clamp_power", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::compute_clamp_power", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const int n = loads.section(s).n_nodes;
           of_section(s) = sum_over_nodes(loads, s, position, [&](const Clamp& clamp, const int place, const Vec3 x) {
             return dot(clamp.anchor(time, place, n) - x, clamp.anchor_velocity(time, place, n));

@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "force_table.hpp"
@@ -39,8 +40,8 @@ class Gravity final : public Force {
                   "positions and forces are those of the fibers' nodes");
     const ConstScalars weight = node_weight_;
     const Vec3 down = direction_;
-    Kokkos::parallel_for(
-        "skein::add_gravity", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, force.extent_int(0)),
+    launch<ExecSpace>(
+        "skein::add_gravity", ExecSpace(), Calls{force.extent_int(0), 10.0},
         KOKKOS_LAMBDA(const int i) { store(force, i, load(force, i) + weight(i) * down); });
   }
 
@@ -52,8 +53,8 @@ class Gravity final : public Force {
     const ConstScalars weight = node_weight_;
     const Scalars of_node = node_energy_;
     const Vec3 down = direction_;
-    Kokkos::parallel_for(
-        "skein::compute_gravity_energy", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, position.extent_int(0)),
+    launch<ExecSpace>(
+        "skein::compute_gravity_energy", ExecSpace(), Calls{position.extent_int(0), 10.0},
         KOKKOS_LAMBDA(const int i) { of_node(i) = -weight(i) * dot(down, load(position, i)); });
     const std::vector<double> part = to_host(ConstScalars(node_energy_));
     auto node = part.begin();

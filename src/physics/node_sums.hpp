@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/arrays/launch.hpp>
 #include <skein/arrays/types.hpp>
 #include <skein/core/error.hpp>
 #include <skein/fibers/fiber.hpp>
@@ -30,8 +31,7 @@ class NodeSums {
   template <class Value>
   void add(const char* label, std::vector<double>& sum, const Value& value) const {
     SKEIN_REQUIRE(sum.size() == n_nodes_.size(), "one sum for each fiber");
-    Kokkos::parallel_for(label, Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, of_node_.extent_int(0)),
-                         SetNumbers<Value>{of_node_, value});
+    launch<ExecSpace>(label, ExecSpace(), Calls{of_node_.extent_int(0), 25.0}, SetNumbers<Value>{of_node_, value});
     const std::vector<double> values = to_host(ConstScalars(of_node_));
     auto node = values.begin();
     for (std::size_t f = 0; f < sum.size(); node += n_nodes_[f++])

@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 #include <skein/physics/node_symmetry.hpp>
 
@@ -36,9 +37,8 @@ void NodeSymmetry::project(const Vectors& vectors) const {
   const SignGroup group = group_;
   const auto image = image_;
   const auto vanishing = vanishing_;
-  Kokkos::parallel_for(
-      "skein::NodeSymmetry::project", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, image.extent_int(0)),
-      KOKKOS_LAMBDA(const int orbit) {
+  launch<ExecSpace>(
+      "skein::NodeSymmetry::project", ExecSpace(), Calls{image.extent_int(0), 10.0}, KOKKOS_LAMBDA(const int orbit) {
         const Vec3 v = without_components(vanishing(orbit), load(vectors, image(orbit, 0)));
         for (int element = 0; element < group.n_elements; ++element)
           if (image(orbit, element) >= 0) store(vectors, image(orbit, element), group.element[element] * v);
@@ -50,9 +50,8 @@ void NodeSymmetry::take_first(const ConstVectors& of_node, const Vectors& of_orb
                 "vectors are those of the symmetric nodes and of their orbits");
   const auto image = image_;
   const auto vanishing = vanishing_;
-  Kokkos::parallel_for(
-      "skein::NodeSymmetry::take_first", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, image.extent_int(0)),
-      KOKKOS_LAMBDA(const int orbit) {
+  launch<ExecSpace>(
+      "skein::NodeSymmetry::take_first", ExecSpace(), Calls{image.extent_int(0), 10.0}, KOKKOS_LAMBDA(const int orbit) {
         store(of_orbit, orbit, without_components(vanishing(orbit), load(of_node, image(orbit, 0))));
       });
 }
@@ -63,9 +62,8 @@ void NodeSymmetry::add_images(const ConstVectors& of_orbit, const Vectors& of_no
   const SignGroup group = group_;
   const auto image = image_;
   const auto vanishing = vanishing_;
-  Kokkos::parallel_for(
-      "skein::NodeSymmetry::add_images", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, image.extent_int(0)),
-      KOKKOS_LAMBDA(const int orbit) {
+  launch<ExecSpace>(
+      "skein::NodeSymmetry::add_images", ExecSpace(), Calls{image.extent_int(0), 10.0}, KOKKOS_LAMBDA(const int orbit) {
         const Vec3 v = without_components(vanishing(orbit), load(of_orbit, orbit));
         for (int element = 0; element < group.n_elements; ++element)
           if (const int node = image(orbit, element); node >= 0)

@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 #include <skein/physics/scene_flow.hpp>
 
@@ -94,8 +95,8 @@ template <class OnHead>
 void add_by_links(const char* label, const ConstScalars& couple, const OnHead& on_head, const Vectors& sum) {
   SKEIN_REQUIRE(on_head.position.extent(0) == couple.extent(0) && sum.extent(0) == couple.extent(0),
                 "positions and forces are those of the fibers' nodes");
-  Kokkos::parallel_for(
-      label, Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, sum.extent_int(0)), KOKKOS_LAMBDA(const int node) {
+  launch<ExecSpace>(
+      label, ExecSpace(), Calls{sum.extent_int(0), 25.0}, KOKKOS_LAMBDA(const int node) {
         Vec3 own;
         if (node > 0 && couple(node - 1) != 0.0) own = own + on_head(node - 1, couple(node - 1));
         if (couple(node) != 0.0) own = own - on_head(node, couple(node));

@@ -1,3 +1,5 @@
+#include <skein/arrays/launch.hpp>
+
 #include "force_table.hpp"
 #include "loaded_sections.hpp"
 #include "motion_times.hpp"
@@ -48,9 +50,8 @@ class Tethers final : public Force {
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     const LoadedSections<Tether> loads = loads_;
-    Kokkos::parallel_for(
-        "skein::add_tether_forces", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::add_tether_forces", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           const Vec3 centroid = section.mean(position);
           Vec3 sum;
@@ -63,9 +64,8 @@ class Tethers final : public Force {
   void add_force_changes(double /*time*/, const ConstVectors& /*position*/, const ConstVectors& displacement,
                          const Vectors& change) const override {
     const LoadedSections<Tether> loads = loads_;
-    Kokkos::parallel_for(
-        "skein::add_tether_force_changes", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::add_tether_force_changes", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           double stiffness = 0.0;
           for (int i = section.first_load; i < section.end_load; ++i) stiffness += loads.load(i).stiffness;
@@ -76,9 +76,8 @@ class Tethers final : public Force {
   void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
     const LoadedSections<Tether> loads = loads_;
     const Scalars of_section = of_section_;
-    Kokkos::parallel_for(
-        "skein::compute_tether_energy", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::compute_tether_energy", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           const Vec3 centroid = section.mean(position);
           double sum = 0.0;
@@ -96,9 +95,8 @@ class Tethers final : public Force {
                         std::vector<double>& power) const override {
     const LoadedSections<Tether> loads = loads_;
     const Scalars of_section = of_section_;
-    Kokkos::parallel_for(
-        "skein::compute_tether_power", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::compute_tether_power", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           const Vec3 centroid = section.mean(position);
           double sum = 0.0;

@@ -1,3 +1,5 @@
+#include <skein/arrays/launch.hpp>
+
 #include "force_table.hpp"
 #include "loaded_sections.hpp"
 #include "motion_times.hpp"
@@ -86,9 +88,8 @@ class Torques final : public Force {
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     const LoadedSections<Torque> loads = loads_;
-    Kokkos::parallel_for(
-        "skein::add_torque_forces", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::add_torque_forces", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           const Vec3 centroid = section.mean(position);
           const Vec3 alpha = inertia_of(section, position, centroid).solve(sum_of(loads, section, time));
@@ -100,9 +101,8 @@ class Torques final : public Force {
   void add_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override {
     const LoadedSections<Torque> loads = loads_;
-    Kokkos::parallel_for(
-        "skein::add_torque_force_changes", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::add_torque_force_changes", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           const Vec3 centroid = section.mean(position), drift = section.mean(displacement);
           const Inertia inertia = inertia_of(section, position, centroid);
@@ -123,9 +123,8 @@ class Torques final : public Force {
                         std::vector<double>& power) const override {
     const LoadedSections<Torque> loads = loads_;
     const Scalars of_section = power_;
-    Kokkos::parallel_for(
-        "skein::compute_torque_power", Kokkos::RangePolicy<ExecSpace>(ExecSpace(), 0, loads.n_sections()),
-        KOKKOS_LAMBDA(const int s) {
+    launch<ExecSpace>(
+        "skein::compute_torque_power", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
           const Vec3 centroid = section.mean(position);
           const Vec3 alpha = inertia_of(section, position, centroid).solve(sum_of(loads, section, time));

@@ -46,12 +46,7 @@ double find_group_limit() {
 
 }  // namespace
 
-double estimate_memory(const SceneConfig& scene) {
-  double n_nodes = 0.0;
-  for (std::size_t f = 0; f < scene.fibers.size(); ++f)
-    n_nodes += count_copies(scene, f) * scene.fibers[f].sections * scene.fibers[f].nodes_per_section;
-  return bytes_per_node * n_nodes;
-}
+double estimate_memory(const SceneConfig& scene) { return bytes_per_node * count_scene_nodes(scene); }
 
 double find_memory_limit() {
   double limit = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));

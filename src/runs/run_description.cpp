@@ -13,6 +13,7 @@
 
 #include "runs/expected_output.hpp"
 #include "runs/scene_summary.hpp"
+#include "runs/useful_threads.hpp"
 
 #include <fmt/format.h>
 
@@ -100,7 +101,7 @@ std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fib
   const double time_scale = find_time_scale(scene);
   const double evaluations = expect_evaluations(scene, time_scale, spectral_radius);
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
-  text += describe_scene(scene);
+  text += describe_threads(scene) + '\n' + describe_scene(scene);
   if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
   text += fmt::format("flow: {}\nmobility: {}\ntime: {}, {}\n", summarize_flow(scene.flows).description,
                       describe_choice(choose_mobility(scene), scene), integrator, describe_span(scene));

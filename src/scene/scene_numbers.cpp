@@ -26,4 +26,11 @@ double count_copies(const SceneConfig& scene, const std::size_t fiber) {
   return std::max(0.0, std::ceil((count_fibers(scene) - static_cast<double>(fiber)) / n_fibers));
 }
 
+double count_scene_nodes(const SceneConfig& scene) {
+  double n_nodes = 0.0;
+  for (std::size_t f = 0; f < scene.fibers.size(); ++f)
+    n_nodes += count_copies(scene, f) * scene.fibers[f].sections * scene.fibers[f].nodes_per_section;
+  return n_nodes;
+}
+
 }  // namespace skein

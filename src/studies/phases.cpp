@@ -42,8 +42,7 @@ RunList list_runs(const PhaseStudy& study, const std::vector<PhasePoint>& points
   list.results = study.folder / "results";
   for (const PhasePoint& point : points) {
     list.names.push_back(point.folder);
-    list.costs.push_back(estimate_run_cost(point.scene));
-    list.largest_memory = std::max(list.largest_memory, static_cast<std::size_t>(estimate_memory(point.scene)));
+    add_estimates(list, point.scene);
   }
   list.make = [points](const std::size_t i) { return NewRun{{points[i].scene, {}, ""}, "", ""}; };
   return list;

@@ -3,12 +3,14 @@
 #include <skein/arrays/default_path.hpp>
 #include <skein/arrays/runtime.hpp>
 #include <skein/io/folder_listing.hpp>
+#include <skein/scene/scene_size.hpp>
 
 #include "runs/memory_limit.hpp"
 #include "runs/process_pool.hpp"
 #include "runs/run_control.hpp"
 #include "runs/run_to_end.hpp"
 #include "runs/stop_signals.hpp"
+#include "runs/useful_threads.hpp"
 
 #include <fmt/format.h>
 
@@ -109,12 +111,12 @@ class Crew {
   void start_next() {
     const std::size_t item = waiting_.back();
     waiting_.pop_back();
-    // What is free, shared by those that come next: the last runs get more threads.
+    // What is free, shared by those that come next: the last runs get more threads, as far as they make them faster.
     const int free_places = n_jobs_ - static_cast<int>(pool_.n_running());
     const int n_next = std::min(free_places, static_cast<int>(waiting_.size()) + 1);
     const int n_free = std::max(n_next, n_threads_ - pool_.n_threads());
     ++attempts_[item];
-    pool_.start(item, (n_free + n_next - 1) / n_next,
+    pool_.start(item, std::min((n_free + n_next - 1) / n_next, list_.useful_threads[item]),
                 [this, item] { return run_and_measure(list_, item, how_.max_walltime); });
   }
 
@@ -170,9 +172,11 @@ class Crew {
 
 }  // namespace
 
-double estimate_run_cost(const SceneConfig& scene) {
-  const double n_nodes = estimate_memory(scene);
-  return n_nodes * n_nodes * (scene.time.end - scene.time.start);
+void add_estimates(RunList& list, const SceneConfig& scene) {
+  const double n_nodes = count_scene_nodes(scene);
+  list.costs.push_back(n_nodes * n_nodes * (scene.time.end - scene.time.start));
+  list.useful_threads.push_back(count_useful_threads(scene));
+  list.largest_memory = std::max(list.largest_memory, static_cast<std::size_t>(estimate_memory(scene)));
 }
 
 std::vector<std::optional<RunResult>> run_side_by_side(const RunList& list, const std::vector<std::size_t>& open,

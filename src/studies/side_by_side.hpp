@@ -18,6 +18,7 @@ struct RunList {
   std::filesystem::path results;            ///< folder of what was measured in them
   std::vector<std::string> names;           ///< of their folders
   std::vector<double> costs;                ///< of each, against the others: the dearest begin first
+  std::vector<int> useful_threads;          ///< of each: more would not make it faster
   std::size_t largest_memory = 0;           ///< bytes of the largest
   std::function<NewRun(std::size_t)> make;  ///< called in the process of that run
 
@@ -25,8 +26,8 @@ struct RunList {
   std::filesystem::path result(const std::size_t i) const { return results / (names[i] + ".h5"); }
 };
 
-/// What a scene costs against others of its kind, and how many bytes it takes.
-double estimate_run_cost(const SceneConfig& scene);
+/// Adds what a run of this scene costs against the others, its threads and its memory.
+void add_estimates(RunList& list, const SceneConfig& scene);
 
 /// How they share the machine.
 struct SideBySide {

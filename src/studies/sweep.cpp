@@ -109,8 +109,7 @@ RunList list_runs(const SweepFolder& folder, const SweepConfig& config) {
     const SceneConfig scene =
         read_scene_text(base, folder.base_scene().string(), make_sweep_overrides(config, run)).config;
     list.names.push_back(name_sweep_run(run));
-    list.costs.push_back(estimate_run_cost(scene));
-    list.largest_memory = std::max(list.largest_memory, static_cast<std::size_t>(estimate_memory(scene)));
+    add_estimates(list, scene);
   }
   list.make = [file = folder.base_scene(), config](const std::size_t run) {
     return make_new_run(file, make_sweep_overrides(config, run));

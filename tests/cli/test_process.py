@@ -138,6 +138,29 @@ class Threads(InFreshFolder):
                     environment=without_settings(OMP_NUM_THREADS="1000"))
         self.expect(DONE, "run", "scene.toml", "-o", "many", "-q", "--threads", "512", "--dry-run")
 
+    def test_small_scenes_take_fewer_unless_more_are_asked_for(self):
+        n_processors = len(os.sched_getaffinity(0))
+        if n_processors < 2:
+            self.skipTest("needs two processors")
+
+        def threads_of(nodes, *options, environment=without_settings(OMP_NUM_THREADS=None)):
+            name = f"run_{len(list(self.folder.iterdir()))}"
+            said = self.expect(DONE, "run", "scene.toml", "-o", name, "--set", "time.end=1e-4", "--set", f"fiber.sections={nodes // 10}",
+                               "--set", "fiber.nodes_per_section=10", *options, environment=environment)
+            line = self.expect(DONE, "info", name).stdout.split("threads: ")[1].splitlines()[0]
+            self.assertIn(f"threads: {line}\n", said.stdout + said.stderr)
+            return line
+
+        self.assertEqual(threads_of(490), f"1 of {n_processors}, because 490 nodes keep no more busy; --threads or OMP_NUM_THREADS "
+                                          "asks for more")
+        self.assertRegex(threads_of(500), "^2 of|^2, all processors")
+        self.assertEqual(threads_of(490, "--threads", "2"), "2, as many as the run was given; 490 nodes keep no more than 1 busy")
+        self.assertEqual(threads_of(490, environment=without_settings(OMP_NUM_THREADS="2")),
+                         "2, as OMP_NUM_THREADS asks for; 490 nodes keep no more than 1 busy")
+        self.assertEqual(threads_of(500, environment=without_settings(KOKKOS_NUM_THREADS="1")), "1, as KOKKOS_NUM_THREADS asks for")
+        # Copies by placement count, too.
+        self.assertRegex(threads_of(100, "--set", 'placement.kind="grid"', "--set", "placement.grid=[1.0, 5.0, 1.0]"), "^2 of|^2, all processors")
+
     def test_settings_of_kokkos_that_are_none(self):
         self.expect_refusal(USAGE, "KOKKOS_NUM_THREADS=abc", environment={"KOKKOS_NUM_THREADS": "abc"})
         self.expect_refusal(USAGE, "KOKKOS_NUM_THREADS=2x", "--threads", "1", environment={"KOKKOS_NUM_THREADS": "2x"})

@@ -1,17 +1,24 @@
 #include <skein/arrays/combination.hpp>
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 
 #include "tests/reference/point_cloud.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <set>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace skein {
 namespace {
 
-constexpr int sizes[] = {0, 1, 3, 255, 256, 257, 512, 1000};
+// Above 1000 nodes combinations are shared by threads, above 10 000 dot products.
+constexpr int sizes[] = {0, 1, 3, 255, 256, 257, 512, 1000, 1001, 20000};
 
 std::vector<Vec3> make_list(const int n, const std::uint64_t seed) {
   reference::Random random(seed);
@@ -116,6 +123,37 @@ TEST(ToHost, TakesSomeNodesOfAnArray) {
   ASSERT_EQ(some.size(), 6U);
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(norm(some[i] - list[i + 17]), 0.0) << i;
   EXPECT_TRUE(to_host(Kokkos::subview(on_device(list), std::make_pair(4, 4), Kokkos::ALL())).empty());
+}
+
+/// Calls kernels of so many nanoseconds. @returns how many threads took part
+std::size_t count_threads(const int n_calls, const double nanoseconds) {
+  std::vector<std::thread::id> thread(static_cast<std::size_t>(n_calls));
+  std::vector<std::atomic<int>> n_times(thread.size());
+  launch<HostSpace>("skein::test::launch", HostSpace(), Calls{n_calls, nanoseconds}, [&](const int i) {
+    thread[static_cast<std::size_t>(i)] = std::this_thread::get_id();
+    ++n_times[static_cast<std::size_t>(i)];
+  });
+  EXPECT_TRUE(std::all_of(n_times.begin(), n_times.end(), [](const auto& n) { return n == 1; })) << n_calls << " calls";
+  int smallest = 0, count = 0;
+  launch_reduction<HostSpace>(
+      "skein::test::launch", HostSpace(), Calls{n_calls, nanoseconds},
+      [&](const int i, int& least, int& sum) {
+        least = std::min(least, (i * 7) % n_calls - 3);
+        ++sum;
+      },
+      Kokkos::Min<int>(smallest), Kokkos::Sum<int>(count));
+  EXPECT_EQ(smallest, -3);
+  EXPECT_EQ(count, n_calls);
+  return std::set<std::thread::id>(thread.begin(), thread.end()).size();
+}
+
+// What is short is not shared by threads, and nothing is left out or done twice.
+TEST(Launch, SharesWhatIsLongAndCallsEachOnce) {
+  if (HostSpace().concurrency() < 2) GTEST_SKIP() << "needs two threads";
+  EXPECT_EQ(count_threads(1000, 9.9), 1u);
+  EXPECT_GT(count_threads(1000, 10.1), 1u);
+  EXPECT_EQ(count_threads(3, 3.3e3), 1u);
+  EXPECT_GT(count_threads(2, 5.1e3), 1u);
 }
 
 }  // namespace

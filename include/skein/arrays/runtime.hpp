@@ -12,14 +12,26 @@ inline constexpr int most_host_threads = 512;
 class Runtime {
  public:
   /// @param threads  host threads; 0 leaves the choice to KOKKOS_NUM_THREADS, OMP_NUM_THREADS or the machine
+  /// @param useful   no more than these where the choice is the machine's
   /// @throws Error(usage) if the number, or a setting of the environment, cannot work; ResourceError if the
   /// system
   ///         does not start so many threads
-  explicit Runtime(int threads = 0);
+  explicit Runtime(int threads = 0, int useful = most_host_threads);
   ~Runtime();
   Runtime(const Runtime&) = delete;
   Runtime& operator=(const Runtime&) = delete;
 };
+
+/// How a Runtime came to its number of host threads.
+struct HostThreads {
+  int number = 1;
+  int useful = most_host_threads;  ///< as the Runtime was told
+  int possible = 1;                ///< without regard to what is useful
+  std::string asked_by;            ///< "--threads" or a variable of the environment; empty: nobody
+};
+
+/// Of the last Runtime.
+const HostThreads& host_threads();
 
 /// How many host threads a Runtime would take; starts none. @throws Error(usage) as Runtime does; 1 where there are
 /// none
