@@ -4,17 +4,6 @@
 #include <skein/core/error.hpp>
 
 namespace skein {
-namespace {
-
-/// Mean of the rows [first, first + count) of a vector, such as a section's nodes.
-template <class Space>
-KOKKOS_INLINE_FUNCTION Vec3 mean_of_rows(const ConstVectorView<Space>& vector, const int first, const int count) {
-  Vec3 sum;
-  for (int row = first; row < first + count; ++row) sum = sum + load(vector, row);
-  return sum / static_cast<double>(count);
-}
-
-}  // namespace
 
 template <class Space>
 void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& vector,
@@ -36,20 +25,11 @@ void locate_sections(const Space& space, const SectionBoxes<Space>& boxes, const
   compute_section_means<Space>(space, boxes, position, boxes.centroid);
   const SectionBoxes<Space> b = boxes;
   launch<Space>(
-      "skein::enclose_blocks", space, Calls{boxes.fiber_of_block.extent_int(0), 50.0}, KOKKOS_LAMBDA(const int block) {
-        const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
-        Vec3 low, high;
-        enclose<Space>(b.centroid, b.centroid, fiber.first_section_of(block), fiber.end_section_of(block), low, high);
-        store(b.block_low, block, low);
-        store(b.block_high, block, high);
-      });
+      "skein::enclose_blocks", space, Calls{boxes.fiber_of_block.extent_int(0), 50.0},
+      KOKKOS_LAMBDA(const int block) { enclose_centroids<Space>(b, block); });
   launch<Space>(
-      "skein::enclose_fibers", space, Calls{boxes.fiber.extent_int(0), 50.0}, KOKKOS_LAMBDA(const int f) {
-        Vec3 low, high;
-        enclose<Space>(b.block_low, b.block_high, b.fiber(f).first_block, b.fiber(f).end_block(), low, high);
-        store(b.fiber_low, f, low);
-        store(b.fiber_high, f, high);
-      });
+      "skein::enclose_fibers", space, Calls{boxes.fiber.extent_int(0), 50.0},
+      KOKKOS_LAMBDA(const int f) { enclose_blocks<Space>(b, f); });
 }
 
 #define SKEIN_INSTANTIATE(S)                                                                          \

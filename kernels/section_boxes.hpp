@@ -77,6 +77,31 @@ KOKKOS_INLINE_FUNCTION void enclose(const VectorView<Space>& lows, const VectorV
   }
 }
 
+/// Mean of the rows [first, first + count) of a vector, such as a section's nodes.
+template <class Space>
+KOKKOS_INLINE_FUNCTION Vec3 mean_of_rows(const ConstVectorView<Space>& vector, const int first, const int count) {
+  Vec3 sum;
+  for (int row = first; row < first + count; ++row) sum = sum + load(vector, row);
+  return sum / static_cast<double>(count);
+}
+
+/// Encloses the centroids of a block, and the blocks of a fiber.
+template <class Space>
+KOKKOS_INLINE_FUNCTION void enclose_centroids(const SectionBoxes<Space>& boxes, const int block) {
+  const FiberSections& fiber = boxes.fiber(boxes.fiber_of_block(block));
+  Vec3 low, high;
+  enclose<Space>(boxes.centroid, boxes.centroid, fiber.first_section_of(block), fiber.end_section_of(block), low, high);
+  store(boxes.block_low, block, low);
+  store(boxes.block_high, block, high);
+}
+template <class Space>
+KOKKOS_INLINE_FUNCTION void enclose_blocks(const SectionBoxes<Space>& boxes, const int f) {
+  Vec3 low, high;
+  enclose<Space>(boxes.block_low, boxes.block_high, boxes.fiber(f).first_block, boxes.fiber(f).end_block(), low, high);
+  store(boxes.fiber_low, f, low);
+  store(boxes.fiber_high, f, high);
+}
+
 /// Square of the distance between two boxes, 0 where they overlap. No less than rounding below that of two points in
 /// them.
 KOKKOS_INLINE_FUNCTION double squared_distance(const Vec3 low, const Vec3 high, const Vec3 other_low,

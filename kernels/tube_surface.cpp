@@ -6,7 +6,6 @@ namespace skein {
 
 template <class Space>
 void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces) {
-  compute_section_means<Space>(space, surfaces.sections, surfaces.position, surfaces.sections.centroid);
   const TubeSurfaces<Space> s = surfaces;
   launch<Space>(
       "skein::enclose_rings", space, section_calls<Space>(surfaces.sections), KOKKOS_LAMBDA(const int item) {
@@ -23,9 +22,10 @@ void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces) {
         }
         store(s.ring_low, section, low);
         store(s.ring_high, section, high);
+        store(s.sections.centroid, section, mean_of_rows<Space>(s.position, first, fiber.nodes_per_section));
       });
   launch<Space>(
-      "skein::enclose_prisms", space, Calls{surfaces.sections.fiber_of_block.extent_int(0), 50.0},
+      "skein::enclose_prisms", space, Calls{surfaces.sections.fiber_of_block.extent_int(0), 100.0},
       KOKKOS_LAMBDA(const int block) {
         const FiberSections& fiber = s.sections.fiber(s.sections.fiber_of_block(block));
         const int first = fiber.first_section_of(block);
@@ -35,14 +35,16 @@ void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces) {
         enclose<Space>(s.ring_low, s.ring_high, first, end, low, high);
         store(s.block_low, block, low);
         store(s.block_high, block, high);
+        enclose_centroids<Space>(s.sections, block);
       });
   launch<Space>(
-      "skein::enclose_tubes", space, Calls{surfaces.sections.fiber.extent_int(0), 50.0}, KOKKOS_LAMBDA(const int f) {
+      "skein::enclose_tubes", space, Calls{surfaces.sections.fiber.extent_int(0), 100.0}, KOKKOS_LAMBDA(const int f) {
         const FiberSections& fiber = s.sections.fiber(f);
         Vec3 low, high;
         enclose<Space>(s.block_low, s.block_high, fiber.first_block, fiber.end_block(), low, high);
         store(s.fiber_low, f, low);
         store(s.fiber_high, f, high);
+        enclose_blocks<Space>(s.sections, f);
       });
 }
 

@@ -11,7 +11,7 @@ namespace skein {
 /// have any shape: nothing is assumed about how fibers are deformed. A prism has the number of its first section.
 template <class Space>
 struct TubeSurfaces {
-  SectionBoxes<Space> sections;             ///< of which the fibers and the centroids are used
+  SectionBoxes<Space> sections;             ///< located, too
   ConstVectorView<Space> position;          ///< [n_nodes, 3], length
   VectorView<Space> ring_low, ring_high;    ///< [n_sections, 3], boxes about rings, length
   VectorView<Space> block_low, block_high;  ///< [n_blocks, 3], boxes about all prisms that begin in a block, length
@@ -27,7 +27,7 @@ struct HiddenPrisms {
   KOKKOS_INLINE_FUNCTION bool hides_all(const int first, const int last) const { return first >= begin && last <= end; }
 };
 
-/// Overwrites centroids and boxes with those of the nodes at `position`.
+/// Overwrites centroids and boxes with those of the nodes at `position`, those of the sections, too.
 template <class Space>
 void locate_surfaces(const Space& space, const TubeSurfaces<Space>& surfaces);
 

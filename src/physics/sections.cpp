@@ -84,13 +84,31 @@ double Sections::compute_smallest_gap(const ConstVectors& position) const {
   return skein::compute_smallest_gap<ExecSpace>(ExecSpace(), locate(position));
 }
 
-Penetration Sections::compute_penetration(const ConstVectors& position) const {
+void Sections::locate_surfaces(const ConstVectors& position) const {
   SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
   surfaces_->position = position;
-  locate_surfaces<ExecSpace>(ExecSpace(), *surfaces_);
+  skein::locate_surfaces<ExecSpace>(ExecSpace(), *surfaces_);
+}
+
+/// At the positions where surfaces were located, which are let go.
+Penetration Sections::find_penetration() const {
   const NodesInside inside = skein::compute_penetration<ExecSpace>(ExecSpace(), *surfaces_, depth_);
   surfaces_->position = {};
   return {inside.count, inside.depth};
+}
+
+Penetration Sections::compute_penetration(const ConstVectors& position) const {
+  locate_surfaces(position);
+  return find_penetration();
+}
+
+SectionRecord Sections::look(const ConstVectors& position) const {
+  locate_surfaces(position);
+  SectionRecord record;
+  record.centreline = to_host(ConstVectors(boxes_->centroid));
+  record.smallest_gap = skein::compute_smallest_gap<ExecSpace>(ExecSpace(), *boxes_);
+  record.penetration = find_penetration();
+  return record;
 }
 
 const SectionBoxes<ExecSpace>& Sections::locate(const ConstVectors& position) const {

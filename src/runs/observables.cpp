@@ -25,7 +25,7 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
 }
 
 StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report,
-                            const std::vector<Vec3>& centreline) {
+                            const SectionRecord& sections) {
   StepRecord record;
   record.step = state.step;
   record.time = state.time;
@@ -33,12 +33,11 @@ StepRecord make_step_record(const Physics& physics, const State& state, const St
   record.error = report.error;
   record.spectral_radius = report.spectral_radius;
   record.energy = physics.compute_energies(state.time, state.position);
-  record.smallest_gap = physics.sections.compute_smallest_gap(state.position);
-  const Penetration penetration = physics.sections.compute_penetration(state.position);
-  record.nodes_inside = penetration.nodes;
-  record.depth = penetration.depth;
+  record.smallest_gap = sections.smallest_gap;
+  record.nodes_inside = sections.penetration.nodes;
+  record.depth = sections.penetration.depth;
   for (const Fiber& fiber : physics.fibers) {
-    const auto line = centreline_of(fiber, centreline);
+    const auto line = centreline_of(fiber, sections.centreline);
     const auto curvature = compute_curvature(line);
     record.length.push_back(compute_length(line));
     record.curvature_max.push_back(*std::max_element(curvature.begin(), curvature.end()));

@@ -18,8 +18,8 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
 
 /// The small numbers of the step that led to `state`, but for what is counted since the start of the run: evaluations,
 /// crossings.
-/// @param centreline  of the state, as compute_centreline gives it
+/// @param sections  of the state, as Sections::look gives them
 StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report,
-                            const std::vector<Vec3>& centreline);
+                            const SectionRecord& sections);
 
 }  // namespace skein

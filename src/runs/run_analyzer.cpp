@@ -28,10 +28,10 @@ void RunAnalyzer::add(const Frame& frame) {
   if (analysis_.histories.empty()) begin_histories(frame);
   analysis_.time.push_back(frame.time);
   const auto position = to_device("skein::RunAnalyzer::position", frame.position);
-  analysis_.smallest_gap.push_back(physics_.sections.compute_smallest_gap(position));
-  const Penetration penetration = physics_.sections.compute_penetration(position);
-  analysis_.nodes_inside.push_back(penetration.nodes);
-  analysis_.depth.push_back(penetration.depth);
+  const SectionRecord sections = physics_.sections.look(position);
+  analysis_.smallest_gap.push_back(sections.smallest_gap);
+  analysis_.nodes_inside.push_back(sections.penetration.nodes);
+  analysis_.depth.push_back(sections.penetration.depth);
   const int n_before = analysis_.crossings.empty() ? 0 : analysis_.crossings.back();
   const int n_new = before_.empty() ? 0 : count_crossings(analysis_.fibers, before_, frame.centreline);
   analysis_.crossings.push_back(n_before + n_new);

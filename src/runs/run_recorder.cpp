@@ -107,10 +107,10 @@ void RunRecorder::note_regimes(const Frame& frame) {
 }
 
 void RunRecorder::write_step_record(const State& state, const StepReport& report) {
-  std::vector<Vec3> centreline = physics_.sections.compute_centreline(state.position);
-  StepRecord record = make_step_record(physics_, state, report, centreline);
-  crossings_ += count_crossings(physics_.fibers, centreline_, centreline);
-  centreline_ = std::move(centreline);
+  SectionRecord sections = physics_.sections.look(state.position);
+  StepRecord record = make_step_record(physics_, state, report, sections);
+  crossings_ += count_crossings(physics_.fibers, centreline_, sections.centreline);
+  centreline_ = std::move(sections.centreline);
   record.crossings = crossings_;
   record.evaluations = ledger_.evaluations();
   record.estimated_error = ledger_.estimated_error();

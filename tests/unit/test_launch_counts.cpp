@@ -81,7 +81,7 @@ Launches count_step(const int n_fibers) {
   const Counting counting;
   const StepReport report = integrator->advance(state, 1.0);
   EXPECT_EQ(report.stages, 2);
-  make_step_record(physics, state, report, physics.sections.compute_centreline(state.position));
+  make_step_record(physics, state, report, physics.sections.look(state.position));
   make_frame(physics, state.step, state.time, state.position);
   return counted;
 }
@@ -103,6 +103,19 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsOneLaunchAndOneWait) {
     EXPECT_EQ(physics.sections.find_faulty_node(position, 2.0), -1);
     EXPECT_EQ(counted.reductions, 1);
     EXPECT_EQ(counted.kernels + counted.copies, 0);
+  }
+}
+
+// Centreline, gap and nodes in surfaces: three kernels locate sections for all of them.
+TEST(LaunchCounts, OfTheLookAtSectionsAreFiveAndACopy) {
+  for (const int n_fibers : {1, 100}) {
+    const Physics physics = test::make_direct_physics(make_scene(n_fibers));
+    const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
+    const Counting counting;
+    const SectionRecord record = physics.sections.look(position);
+    EXPECT_EQ(counted.kernels, 3);
+    EXPECT_EQ(counted.reductions, 2);
+    EXPECT_EQ(record.centreline.size(), 3u * static_cast<unsigned>(n_fibers));
   }
 }
 

@@ -27,7 +27,12 @@ FiberConfig make_config(const int sections, const int nodes_per_section = 18) {
 }
 
 Penetration penetration_of(const std::vector<Fiber>& fibers, const std::vector<Vec3>& position) {
-  return Sections(fibers).compute_penetration(to_device("position", position));
+  const Vectors on_device = to_device("position", position);
+  const Penetration found = Sections(fibers).compute_penetration(on_device);
+  const Penetration looked = Sections(fibers).look(on_device).penetration;
+  EXPECT_EQ(looked.nodes, found.nodes);
+  EXPECT_EQ(looked.depth, found.depth);
+  return found;
 }
 
 /// A straight tube along x about the origin, turned and moved.

@@ -37,6 +37,7 @@ TEST(Sections, HaveCentroidsThatAreTheMeansOfTheirNodes) {
   const auto position = reference::make_random_vectors(count_nodes(fibers), 2.0, random);
   const auto centreline = Sections(fibers).compute_centreline(to_device("position", position));
   ASSERT_EQ(centreline.size(), 40u);
+  EXPECT_EQ(Sections(fibers).look(to_device("position", position)).centreline, centreline);
   std::size_t node = 0, section = 0;
   for (const Fiber& fiber : fibers)
     for (int s = 0; s < fiber.config.sections; ++s, ++section) {
@@ -46,13 +47,16 @@ TEST(Sections, HaveCentroidsThatAreTheMeansOfTheirNodes) {
     }
 }
 
-/// The gap of sections whose nodes all lie about given centroids.
+/// The gap of sections whose nodes all lie about given centroids, however it is asked for.
 double gap_of(const std::vector<Fiber>& fibers, const std::vector<Vec3>& centreline) {
   std::vector<Vec3> position;
   for (const Fiber& fiber : fibers)
     for (int s = 0; s < fiber.config.sections; ++s)
       position.insert(position.end(), fiber.config.nodes_per_section, centreline[fiber.first_section + s]);
-  return Sections(fibers).compute_smallest_gap(to_device("position", position));
+  const Vectors on_device = to_device("position", position);
+  const double gap = Sections(fibers).compute_smallest_gap(on_device);
+  EXPECT_EQ(Sections(fibers).look(on_device).smallest_gap, gap);
+  return gap;
 }
 
 /// Every pair of sections of different fibers, and of one fiber where at least ten radii of it lie between them.

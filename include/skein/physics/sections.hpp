@@ -19,6 +19,13 @@ struct Penetration {
   double depth = 0.0;  ///< of the deepest: its distance to that surface, length
 };
 
+/// What a step's record says of sections.
+struct SectionRecord {
+  std::vector<Vec3> centreline;  ///< as compute_centreline gives it
+  double smallest_gap = 0.0;     ///< as compute_smallest_gap
+  Penetration penetration;       ///< as compute_penetration
+};
+
 /// The sections of all fibers on the device: what is asked of all of them takes one launch or a few, however many
 /// fibers there are. One call at a time: the object holds scratch.
 class Sections {
@@ -53,10 +60,16 @@ class Sections {
   /// inside of it.
   Penetration compute_penetration(const ConstVectors& position) const;
 
+  /// Centreline, gap and penetration, for which sections are located once: in five launches and three waits.
+  SectionRecord look(const ConstVectors& position) const;
+
   /// Centroids, and boxes about blocks of sections and about fibers, of nodes at `position`: for kernels.
   const SectionBoxes<ExecSpace>& locate(const ConstVectors& position) const;
 
  private:
+  void locate_surfaces(const ConstVectors& position) const;
+  Penetration find_penetration() const;
+
   int n_nodes_, n_sections_;
   std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
   std::unique_ptr<TubeSurfaces<ExecSpace>> surfaces_;
