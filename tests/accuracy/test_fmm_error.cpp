@@ -1,3 +1,4 @@
+#include <skein/arrays/memory_snapshot.hpp>
 #include <skein/core/error.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
@@ -377,6 +378,44 @@ TEST(FmmCheck, LowersTheOrderAgainWhenChecksAllowIt) {
   // And up again at the next miss.
   EXPECT_LT(evaluate(aligned), options.tolerance);
   EXPECT_EQ(fmm.error_record().order, raised);
+}
+
+// A checkpoint holds what a miss has changed and when a lower order is tried next: the run that goes on from it chooses
+// as the one that was not interrupted.
+TEST(FmmCheck, GoesOnFromACheckpointBetweenAMissAndALowerOrder) {
+  const PointForces random = with_forces(make_tube(300), 1e-5, 12);
+  PointForces aligned = random;
+  aligned.force.assign(aligned.force.size(), {1.0, 0.3, -0.2});
+  FmmOptions options;
+  options.tolerance = 4e-3;
+  options.order = 4;
+  options.leaf_size = 30;
+  options.singular_cutoff = 0.1;  // cut far too short, until the order is raised
+  options.check_every = 3;
+  const auto evaluate = [](FmmMobility& fmm, const PointForces& from) {
+    const Sources sources = on_device(from);
+    const Vectors velocity("velocity", from.position.size());
+    fmm.add_velocity(sources, sources.position, velocity);
+    return to_host(velocity);
+  };
+  FmmMobility unbroken(viscosity, options);
+  evaluate(unbroken, aligned);
+  ASSERT_GE(unbroken.error_record().n_misses, 1);
+  const int raised = unbroken.error_record().order;
+  for (int i = 0; i < 10; ++i) evaluate(unbroken, random);
+  MemorySnapshot checkpoint;
+  checkpoint.take(unbroken);
+  FmmMobility resumed(viscosity, options);
+  checkpoint.bring_back(resumed);
+  bool is_lower = false;
+  for (int i = 0; i < 120; ++i) {
+    const auto velocity = evaluate(unbroken, random);
+    EXPECT_EQ(evaluate(resumed, random), velocity) << i;
+    EXPECT_EQ(resumed.error_record().order, unbroken.error_record().order) << i;
+    EXPECT_EQ(resumed.error_record().n_checks, unbroken.error_record().n_checks) << i;
+    is_lower |= unbroken.error_record().order < raised;
+  }
+  EXPECT_TRUE(is_lower) << "nothing was lowered, so that nothing was compared";
 }
 
 TEST(FmmCheck, ChoosesTheDirectSumWhereItIsCheaper) {
