@@ -31,20 +31,17 @@ void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrd
   const auto from_key = from.key, to_key = to.key;
   const auto from_order = from.order, to_order = to.order;
   const auto places = place;
-  for_range(
-      "skein::sort_by_key_count", space, n_chunks,
-      KOKKOS_LAMBDA(const int chunk) {
+  launch<Space>(
+      "skein::sort_by_key_count", space, Calls{n_chunks, 2.0 * size}, KOKKOS_LAMBDA(const int chunk) {
         int count[n_digits<Space>] = {};
         const int last = math::smaller(n, (chunk + 1) * size);
         for (int i = chunk * size; i < last; ++i)
           ++count[static_cast<int>(from_key(i) >> shift) & (n_digits<Space> - 1)];
         for (int digit = 0; digit < n_digits<Space>; ++digit) places(digit * n_chunks + chunk) = count[digit];
-      },
-      1);
+      });
   scan_in_place(space, place, n_digits<Space> * n_chunks);
-  for_range(
-      "skein::sort_by_key_move", space, n_chunks,
-      KOKKOS_LAMBDA(const int chunk) {
+  launch<Space>(
+      "skein::sort_by_key_move", space, Calls{n_chunks, 4.0 * size}, KOKKOS_LAMBDA(const int chunk) {
         int next[n_digits<Space>];
         for (int digit = 0; digit < n_digits<Space>; ++digit) next[digit] = places(digit * n_chunks + chunk);
         const int last = math::smaller(n, (chunk + 1) * size);
@@ -54,8 +51,7 @@ void sort_pass(const Space& space, const KeyedOrder<Space>& from, const KeyedOrd
           to_key(at) = key;
           to_order(at) = from_order(i);
         }
-      },
-      1);
+      });
 }
 
 /// Where each of a team's keys goes: behind those that are smaller, or equal and before it.
@@ -119,9 +115,9 @@ template <class Space>
 bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n) {
   const auto key = sorted.key;
   int n_descents = 0;
-  Kokkos::parallel_reduce(
-      "skein::sort_by_key_check", Kokkos::RangePolicy<Space>(space, 0, math::larger(0, n - 1)),
-      KOKKOS_LAMBDA(const int i, int& sum) { sum += key(i) > key(i + 1); }, n_descents);
+  launch_reduction<Space>(
+      "skein::sort_by_key_check", space, Calls{math::larger(0, n - 1), 1.5},
+      KOKKOS_LAMBDA(const int i, int& sum) { sum += key(i) > key(i + 1); }, Kokkos::Sum<int>(n_descents));
   return n_descents == 0;
 }
 

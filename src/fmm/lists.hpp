@@ -1,6 +1,6 @@
 #pragma once
 
-#include <skein/arrays/types.hpp>
+#include <skein/arrays/launch.hpp>
 
 #include <cstddef>
 #include <span>
@@ -22,19 +22,6 @@ void require_extent(View& view, const std::size_t n, const char* label) {
 template <class View>
 void extend(View& view, const std::size_t n) {
   if (view.extent(0) < n) Kokkos::resize(view, n + n / 2);
-}
-
-/// So many entries are not worth a fork of a host's threads.
-inline constexpr int few_entries = 300;
-
-/// A parallel loop over 0 .. n - 1. @param few  on hosts so many are left to one thread
-template <class Space, class Use>
-void for_range(const char* label, const Space& space, const int n, const Use& use, const int few = few_entries) {
-  if (on_host<Space> && n <= few) {
-    for (int i = 0; i < n; ++i) use(i);
-    return;
-  }
-  Kokkos::parallel_for(label, Kokkos::RangePolicy<Space>(space, 0, n), use);
 }
 
 /// What scan_counts does at one entry. No lambda: in a template of a header the device's compiler may not find it
@@ -60,7 +47,7 @@ int scan_counts(const Space& space, const Kokkos::View<int*, Space>& count, cons
   const ScanCount<Space> scan{count, end, base};
   const Kokkos::RangePolicy<Space> range(space, begin, end + 1);
   int total = 0;
-  if (on_host<Space> && end - begin <= few_entries)
+  if (on_host<Space> && !Calls{end - begin, 2.0}.are_worth_sharing())
     for (int i = begin; i <= end; ++i) scan(i, total, true);
   else if (waits)
     Kokkos::parallel_scan("skein::scan_counts", range, scan, total);

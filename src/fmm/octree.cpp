@@ -76,8 +76,8 @@ void split_level(const Space& space, Octree<Space>& tree, const int level) {
   require_extent(tree.count, static_cast<std::size_t>(parents.count) + 1, "skein::octree::box_count");
   const auto count = tree.count;
   const auto parent_boxes = tree.boxes;
-  for_range(
-      "skein::count_children", space, parents.count, KOKKOS_LAMBDA(const int k) {
+  launch<Space>(
+      "skein::count_children", space, Calls{parents.count, 100.0}, KOKKOS_LAMBDA(const int k) {
         const Box box = parent_boxes(parents.first + k);
         int n = 0;
         if (math::larger(box.sources.count, box.targets.count) > split_above) {
@@ -91,8 +91,8 @@ void split_level(const Space& space, Octree<Space>& tree, const int level) {
   if (n_boxes == first_child) return;
   extend(tree.boxes, static_cast<std::size_t>(n_boxes));
   const auto boxes = tree.boxes;
-  for_range(
-      "skein::split_boxes", space, parents.count, KOKKOS_LAMBDA(const int k) {
+  launch<Space>(
+      "skein::split_boxes", space, Calls{parents.count, 100.0}, KOKKOS_LAMBDA(const int k) {
         if (count(k + 1) == count(k)) return;
         const int parent = parents.first + k;
         Box box = boxes(parent);
@@ -112,8 +112,8 @@ void split_boxes(const Space& space, Octree<Space>& tree) {
   extend(tree.boxes, 1);
   const auto boxes = tree.boxes;
   const int n_sources = tree.n_sources, n_targets = tree.n_targets;
-  for_range(
-      "skein::make_root", space, 1, KOKKOS_LAMBDA(const int i) {
+  launch<Space>(
+      "skein::make_root", space, Calls{1, 1.0}, KOKKOS_LAMBDA(const int i) {
         Box root;
         root.sources.count = n_sources;
         root.targets.count = n_targets;

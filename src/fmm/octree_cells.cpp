@@ -49,10 +49,10 @@ struct FindBounds {
 template <class Space>
 void widen(const Space& space, const Nodes<Space>& nodes, NodeBounds& bounds) {
   using Find = FindBounds<Space>;
-  const Kokkos::RangePolicy<Space> runs(space, 0, math::ceil_div(nodes.extent_int(0), Find::run));
+  const Calls runs{math::ceil_div(nodes.extent_int(0), Find::run), 0.7 * Find::run};
   for (int c = 0; c < 3; ++c) {
     typename Find::Extremes::value_type found;
-    Kokkos::parallel_reduce("skein::find_bounds", runs, Find{nodes, c}, typename Find::Extremes(found));
+    launch_reduction<Space>("skein::find_bounds", space, runs, Find{nodes, c}, typename Find::Extremes(found));
     bounds.low[c] = std::min(bounds.low[c], found.min_val);
     bounds.high[c] = std::max(bounds.high[c], found.max_val);
   }
@@ -86,8 +86,9 @@ void make_keys(const Space& space, const ConstVectorView<Space>& nodes, const Ke
                const KeyedOrder<Space>& keyed) {
   const auto key = keyed.key;
   const auto order = keyed.order;
-  for_range(
-      "skein::make_morton_keys", space, math::ceil_div(nodes.extent_int(0), stride), KOKKOS_LAMBDA(const int i) {
+  launch<Space>(
+      "skein::make_morton_keys", space, Calls{math::ceil_div(nodes.extent_int(0), stride), 6.0},
+      KOKKOS_LAMBDA(const int i) {
         key(i) = key_of(nodes, i * stride);
         order(i) = i;
       });

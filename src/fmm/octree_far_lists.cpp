@@ -59,8 +59,8 @@ void build_touching(const Space& space, Octree<Space>& tree) {
   const auto touching = tree.touching, n_touching = tree.n_touching;
   for (int level = 0; level < tree.n_levels(); ++level) {
     const IndexRange boxes = tree.level(level);
-    for_range(
-        "skein::list_touching", space, boxes.count, KOKKOS_LAMBDA(const int k) {
+    launch<Space>(
+        "skein::list_touching", space, Calls{boxes.count, 300.0}, KOKKOS_LAMBDA(const int k) {
           const int b = boxes.first + k;
           EntrySink<int> sink;
           sink.to = touching.data() + most_touching * b;
@@ -81,8 +81,8 @@ void build_far(const Space& space, Octree<Space>& tree, const int min_sources_fo
     const ListSource<Space> from(tree);
     const auto far = tree.v_list;
     const auto coarse = tree.x_list, x_direct = tree.x_direct;
-    for_range(
-        "skein::list_far", space, n_boxes, KOKKOS_LAMBDA(const int b) {
+    launch<Space>(
+        "skein::list_far", space, Calls{n_boxes, 500.0}, KOKKOS_LAMBDA(const int b) {
           FarSinks sinks;
           if (fills) {
             sinks.far.to = far.entries.data() + far.first(b);
@@ -100,8 +100,8 @@ void build_far(const Space& space, Octree<Space>& tree, const int min_sources_fo
     place_lists(space, tree, n_boxes, "skein::octree::list", tree.v_list, tree.x_list, tree.x_direct);
   }
   const auto pairs = tree.v_list.entries;
-  Kokkos::parallel_reduce(
-      "skein::find_transfers_met", Kokkos::RangePolicy<Space>(space, 0, tree.v_list.n_entries),
+  launch_reduction<Space>(
+      "skein::find_transfers_met", space, Calls{tree.v_list.n_entries, 2.0},
       KOKKOS_LAMBDA(const int k, std::uint64_t& met) { met |= std::uint64_t{1} << transfer_index(pairs(k).transfer); },
       Kokkos::BOr<std::uint64_t>(tree.transfers));
 }

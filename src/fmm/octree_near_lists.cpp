@@ -48,8 +48,8 @@ void find_target_leaves(const Space& space, Octree<Space>& tree) {
   const auto place = tree.count;
   const auto boxes = tree.boxes;
   int coarsest = 0;
-  Kokkos::parallel_reduce(
-      "skein::find_target_leaves", Kokkos::RangePolicy<Space>(space, 0, n_boxes),
+  launch_reduction<Space>(
+      "skein::find_target_leaves", space, Calls{n_boxes, 3.0},
       KOKKOS_LAMBDA(const int b, int& least) {
         const Box& box = boxes(b);
         place(b) = box.is_leaf() && box.targets.count > 0;
@@ -60,8 +60,8 @@ void find_target_leaves(const Space& space, Octree<Space>& tree) {
   tree.largest_leaf = tree.n_target_leaves > 0 ? tree.half_width(coarsest) : 0.0;
   require_extent(tree.target_leaves, static_cast<std::size_t>(tree.n_target_leaves), "skein::octree::target_leaves");
   const auto leaves = tree.target_leaves;
-  for_range(
-      "skein::list_target_leaves", space, n_boxes, KOKKOS_LAMBDA(const int b) {
+  launch<Space>(
+      "skein::list_target_leaves", space, Calls{n_boxes, 3.0}, KOKKOS_LAMBDA(const int b) {
         if (place(b + 1) > place(b)) leaves(place(b)) = b;
       });
 }
@@ -80,8 +80,8 @@ void build_near(const Space& space, Octree<Space>& tree, const int min_sources_f
     const auto near = tree.u_list;
     const auto fine = tree.w_list;
     std::int64_t n_pairs = 0;
-    Kokkos::parallel_reduce(
-        "skein::list_near", Kokkos::RangePolicy<Space>(space, 0, n_leaves),
+    launch_reduction<Space>(
+        "skein::list_near", space, Calls{n_leaves, 800.0},
         KOKKOS_LAMBDA(const int leaf, std::int64_t& sum) {
           NearSinks sinks;
           RunSink& runs = sinks.runs;
@@ -100,7 +100,7 @@ void build_near(const Space& space, Octree<Space>& tree, const int min_sources_f
             fine.first(leaf) = sinks.boxes.n;
           }
         },
-        n_pairs);
+        Kokkos::Sum<std::int64_t>(n_pairs));
     tree.n_near_pairs = static_cast<double>(n_pairs);
     if (fills) continue;
     place_lists(space, tree, n_leaves, "skein::octree::list", tree.u_list, tree.w_list);

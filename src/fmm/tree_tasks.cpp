@@ -12,8 +12,8 @@ void LeafParts<Space>::build(const Space& space, const Octree<Space>& tree, cons
   const auto boxes = tree.boxes;
   const auto leaves = tree.target_leaves;
   const auto begin = first;
-  for_range(
-      "skein::count_leaf_parts", space, n_leaves, KOKKOS_LAMBDA(const int i) {
+  launch<Space>(
+      "skein::count_leaf_parts", space, Calls{n_leaves, 3.0}, KOKKOS_LAMBDA(const int i) {
         const IndexRange targets = boxes(leaves(i)).targets;
         const bool is_wanted = targets.first >= wanted.first && targets.first < wanted.first + wanted.count;
         begin(i) = is_wanted ? math::ceil_div(targets.count, most_targets) : 0;
@@ -22,8 +22,8 @@ void LeafParts<Space>::build(const Space& space, const Octree<Space>& tree, cons
   require_extent(leaf, static_cast<std::size_t>(n_parts), "skein::leaf_parts::leaf");
   require_extent(place, static_cast<std::size_t>(n_parts), "skein::leaf_parts::place");
   const auto leaf_of = leaf, place_of = place;
-  for_range(
-      "skein::list_leaf_parts", space, n_leaves, KOKKOS_LAMBDA(const int i) {
+  launch<Space>(
+      "skein::list_leaf_parts", space, Calls{n_leaves, 3.0}, KOKKOS_LAMBDA(const int i) {
         for (int k = begin(i); k < begin(i + 1); ++k) {
           leaf_of(k) = i;
           place_of(k) = k - begin(i);
@@ -42,16 +42,16 @@ void FarOrder<Space>::build(const Space& space, Octree<Space>& tree) {
   const auto far = tree.v_list.entries;
   const auto key = pairs.key;
   const auto unsorted = pairs.order;
-  for_range(
-      "skein::make_transfer_keys", space, n, KOKKOS_LAMBDA(const int k) {
+  launch<Space>(
+      "skein::make_transfer_keys", space, Calls{n, 5.0}, KOKKOS_LAMBDA(const int k) {
         const FarPair pair = far(k);
         key(k) = static_cast<std::uint64_t>(n_transfers * boxes(pair.target).level + transfer_index(pair.transfer));
         unsorted(k) = k;
       });
   sort_by_key(space, pairs, n, n_bits, tree.sort_memory);
   const auto order = pairs.order, place_of = place;
-  for_range(
-      "skein::place_far_pairs", space, n, KOKKOS_LAMBDA(const int i) { place_of(order(i)) = i; });
+  launch<Space>(
+      "skein::place_far_pairs", space, Calls{n, 3.0}, KOKKOS_LAMBDA(const int i) { place_of(order(i)) = i; });
 }
 
 #define SKEIN_INSTANTIATE(S)    \

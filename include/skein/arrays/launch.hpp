@@ -34,8 +34,9 @@ void launch(const std::string& label, const Space& space, const Calls calls, con
 /// The same with numbers that come back, as Kokkos::parallel_reduce does; only for such that do not depend on the order
 /// of calls: minima, maxima, integers.
 template <class Space, class Kernel, class... Reducers>
-void launch_reduction(const std::string& label, const Space& space, const Calls calls, const Kernel& kernel,
-                      const Reducers&... reducers) {
+requires(requires { typename Reducers::reducer; } && ...)  // a number by itself would not come back
+    void launch_reduction(const std::string& label, const Space& space, const Calls calls, const Kernel& kernel,
+                          const Reducers&... reducers) {
 #if defined(KOKKOS_ENABLE_SERIAL)
   if constexpr (on_host<Space> && !std::is_same_v<Space, Kokkos::Serial>)
     if (!calls.are_worth_sharing())
