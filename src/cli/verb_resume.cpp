@@ -1,5 +1,6 @@
 #include <skein/arrays/runtime.hpp>
 #include <skein/core/duration.hpp>
+#include <skein/core/error.hpp>
 #include <skein/io/run_lock.hpp>
 #include <skein/io/run_scene.hpp>
 
@@ -41,10 +42,19 @@ int finish_run(const RunFolder& folder, const SceneConfig& scene, const Checkpoi
   return 0;
 }
 
+/// All where the scene cannot be read, which is told in its turn.
+int count_useful_threads_of(const RunFolder& folder) {
+  try {
+    return count_useful_threads(read_run_scene(folder));
+  } catch (const Error&) {
+    return most_host_threads;
+  }
+}
+
 int resume_run(const ResumeOptions& options, Communicator* ranks) {
   const RunFolder folder = RunFolder::open_begun(options.folder);
   // Before anything is changed: there may be no such threads.
-  const Runtime runtime(options.threads, count_useful_threads(read_run_scene(folder)));
+  const Runtime runtime(options.threads, count_useful_threads_of(folder));
   const RunLock lock(folder);
   if (!lock.note().empty()) print_warning(lock.note());
   const Resumption run = prepare_resumption(folder, options.overrides, options.from_start);
