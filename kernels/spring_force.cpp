@@ -47,16 +47,26 @@ KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& spr
   return energy;
 }
 
-void add_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
+/// The tile of a node's section, or of the first one whose springs reach it.
+int tile_of(const SpringArrays<HostSpace>& springs, const int node, const bool looks_back) {
+  const FiberSprings fiber = springs.fiber(springs.fiber_of_node(node));
+  const int section = (node - fiber.first_node) / fiber.nodes_per_section;
+  return fiber.first_tile + math::larger(0, section - (looks_back ? fiber.reach : 0)) / sections_per_tile;
+}
+
+void add_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs, const IndexRange nodes,
                  const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
   const int n_nodes = force.extent_int(0);
-  const int n_tiles = springs.fiber_of_tile.extent_int(0);
-  const double per_tile = 25.0 * n_nodes / math::larger(1, n_tiles);
+  const double per_tile = 25.0 * n_nodes / math::larger(1, springs.fiber_of_tile.extent_int(0));
+  // Tiles whose springs reach forward to these nodes are among them.
+  const int first_tile = tile_of(springs, nodes.first, true);
+  const int n_tiles = tile_of(springs, nodes.first + nodes.count - 1, false) + 1 - first_tile;
   launch<HostSpace>("skein::add_spring_force", space, Calls{n_tiles, per_tile},
-                    [=](const int tile) { add_tile_force(springs, tile, position, force); });
+                    [=](const int i) { add_tile_force(springs, first_tile + i, position, force); });
 
   const int n_reactions = springs.reaction.extent_int(0);
-  launch<HostSpace>("skein::add_spring_reaction", space, Calls{n_nodes, 3.0}, [=](const int node) {
+  launch<HostSpace>("skein::add_spring_reaction", space, Calls{nodes.count, 3.0}, [=](const int i) {
+    const int node = nodes.first + i;
     for (int row = node; row < n_reactions; row += n_nodes)
       store(force, node, load(force, node) + load(springs.reaction, row));
   });
@@ -83,13 +93,13 @@ void sum_by_teams(const Space& space, const SpringArrays<Space>& springs, const 
 }
 
 /// A node to a thread of a host.
-void add_by_nodes_of_host(const HostSpace& space, const SpringArrays<HostSpace>& springs,
+void add_by_nodes_of_host(const HostSpace& space, const SpringArrays<HostSpace>& springs, const IndexRange nodes,
                           const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
   check_extents<HostSpace>(springs, position, force);
-  launch<HostSpace>("skein::add_spring_force_by_nodes", space, Calls{position.extent_int(0), 100.0},
-                    [=](const int node) {
-                      store(force, node, load(force, node) + force_on_node<HostSpace>(springs, position, node));
-                    });
+  launch<HostSpace>("skein::add_spring_force_by_nodes", space, Calls{nodes.count, 100.0}, [=](const int i) {
+    const int node = nodes.first + i;
+    store(force, node, load(force, node) + force_on_node<HostSpace>(springs, position, node));
+  });
 }
 
 }  // namespace
@@ -107,15 +117,16 @@ void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>
 }
 
 template <class Space>
-void add_spring_force(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
-                      const VectorView<Space>& force) {
+void add_spring_force(const Space& space, const SpringArrays<Space>& springs, const IndexRange nodes,
+                      const ConstVectorView<Space>& position, const VectorView<Space>& force) {
+  if (nodes.count == 0) return;
   if constexpr (!on_host<Space>) {
     add_spring_force_by_nodes<Space>(space, springs, position, force);
   } else if (springs.has_wide_sections) {
-    add_by_nodes_of_host(space, springs, position, force);
+    add_by_nodes_of_host(space, springs, nodes, position, force);
   } else {
     check_extents<Space>(springs, position, force);
-    add_on_host(space, springs, position, force);
+    add_on_host(space, springs, nodes, position, force);
   }
 }
 
@@ -136,7 +147,7 @@ void compute_section_energy(const Space& space, const SpringArrays<Space>& sprin
 }
 
 #define SKEIN_INSTANTIATE(S)                                                                                  \
-  template void add_spring_force<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,              \
+  template void add_spring_force<S>(const S&, const SpringArrays<S>&, IndexRange, const ConstVectorView<S>&,  \
                                     const VectorView<S>&);                                                    \
   template void add_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,     \
                                              const VectorView<S>&);                                           \

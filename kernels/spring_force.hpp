@@ -3,6 +3,8 @@
 #include <skein/arrays/types.hpp>
 #include <skein/core/simd.hpp>
 
+#include "kernels/index_range.hpp"
+
 namespace skein {
 
 /// Where one fiber's nodes, sections and stencil lie in the arrays of all fibers.
@@ -43,17 +45,18 @@ KOKKOS_INLINE_FUNCTION double spring_factor(const SpringArrays<Space>& springs, 
 inline constexpr int sections_per_tile = simd::width<double>;
 inline constexpr int max_tile_nodes = 64;
 
-/// Adds to force, [n_nodes, 3], the springs' force on each node:
+/// Adds to force, [n_nodes, 3], the springs' force on each of some nodes:
 ///
 ///   force on a node = - sum over its springs of k (r/l - 1) d/r,   d = node - other node, r = |d|;   zero at r = 0
 ///
-/// The order of every sum is fixed: the result does not depend on threads.
+/// The order of every sum is fixed: the result depends neither on threads nor on which other nodes there are. Forces of
+/// other nodes near these are left in any state.
 template <class Space>
-void add_spring_force(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
-                      const VectorView<Space>& force);
+void add_spring_force(const Space& space, const SpringArrays<Space>& springs, IndexRange nodes,
+                      const ConstVectorView<Space>& position, const VectorView<Space>& force);
 
-/// The same by one thread per node, each spring weighed at both of its nodes: the way of GPUs, and of the host where
-/// sections have more nodes than a tile holds.
+/// The same for all nodes by one thread per node, each spring weighed at both of its nodes: the way of GPUs, and of the
+/// host where sections have more nodes than a tile holds.
 template <class Space>
 void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                const ConstVectorView<Space>& position, const VectorView<Space>& force);

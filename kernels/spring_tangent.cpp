@@ -28,20 +28,21 @@ KOKKOS_INLINE_FUNCTION Vec3 change_on_node(const SpringArrays<Space>& springs, c
 }  // namespace
 
 template <class Space>
-void add_spring_force_change(const Space& space, const SpringArrays<Space>& springs,
+void add_spring_force_change(const Space& space, const SpringArrays<Space>& springs, const IndexRange nodes,
                              const ConstVectorView<Space>& position, const ConstVectorView<Space>& displacement,
                              const VectorView<Space>& change) {
   SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0) && displacement.extent(0) == position.extent(0) &&
                     change.extent(0) == position.extent(0),
                 "positions, displacements, changes and the nodes of the springs differ in number");
   launch<Space>(
-      "skein::add_spring_force_change", space, Calls{position.extent_int(0), 100.0}, KOKKOS_LAMBDA(const int node) {
+      "skein::add_spring_force_change", space, Calls{nodes.count, 100.0}, KOKKOS_LAMBDA(const int i) {
+        const int node = nodes.first + i;
         store(change, node, load(change, node) + change_on_node<Space>(springs, position, displacement, node));
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                            \
-  template void add_spring_force_change<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
+#define SKEIN_INSTANTIATE(S)                                                                                        \
+  template void add_spring_force_change<S>(const S&, const SpringArrays<S>&, IndexRange, const ConstVectorView<S>&, \
                                            const ConstVectorView<S>&, const VectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

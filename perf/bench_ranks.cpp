@@ -1,9 +1,12 @@
 // Sums that ranks share, by the wall time of rank 0, and what it takes of each rank. By itself, or under mpirun.
-// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [tiny]
+// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run] [repeats=N] [tiny]
+// `run` takes steps of RKC2 with the fiber of 23 634 nodes, for a table of its own: seconds an evaluation by part.
 // A line of each sum: ranks, threads, nodes, seconds (fastest and median), work and waiting of the busiest rank, and
 // bytes.
 
 #include <skein/arrays/runtime.hpp>
+#include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 #include <skein/physics/sum_team.hpp>
@@ -54,19 +57,21 @@ void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const in
   sum();
   const std::vector<double> work_before = team != nullptr ? team->work_seconds() : std::vector<double>{0.0};
   const RankTraffic before = team != nullptr ? team->ranks().traffic() : RankTraffic{};
+  const auto* fmm = dynamic_cast<const FmmMobility*>(&mobility);
+  FmmStatistics statistics;  // of the fastest
   std::vector<double> seconds;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const auto start = std::chrono::steady_clock::now();
     sum();
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (fmm != nullptr && seconds.back() <= *std::min_element(seconds.begin(), seconds.end()))
+      statistics = fmm->statistics();
   }
   const RankTraffic after = team != nullptr ? team->ranks().traffic() : RankTraffic{};
   const std::vector<double> work = team != nullptr ? team->work_seconds() : std::vector<double>{0.0};
   double busiest = 0.0;
   for (std::size_t r = 0; r < work.size(); ++r) busiest = std::max(busiest, (work[r] - work_before[r]) / repeats);
   std::sort(seconds.begin(), seconds.end());
-  const auto* fmm = dynamic_cast<const FmmMobility*>(&mobility);
-  const FmmStatistics statistics = fmm != nullptr ? fmm->statistics() : FmmStatistics{};
   std::printf("%s,%d,%d,%d,%.5g,%.5g,%.5g,%.5g,%.4g,%.4g,%.4g,%.3g,%.4g,%.4g,%.4g,%.4g,%.4g,%d\n", problem.name.c_str(),
               team != nullptr ? team->ranks().size() : 0, HostSpace().concurrency(), problem.position.extent_int(0),
               seconds.front(), seconds[seconds.size() / 2], busiest,
@@ -86,14 +91,77 @@ void measure_fmm(const Problem& problem, SumTeam* team, const int repeats) {
   measure(problem, mobility, team, repeats);
 }
 
+/// The parts of an evaluation in steps, of which rank 0 knows the time; the fastest of some runs of ten steps.
+void measure_steps(const int sections, SumTeam* team, const int repeats) {
+  SceneConfig scene;
+  FiberConfig& fiber = scene.fibers.emplace_back();
+  fiber.sections = sections;
+  fiber.start_noise = 1e-11;
+  scene.flows.emplace_back().rate = 2.5;
+  scene.hydrodynamics.method = SumMethod::fmm;
+  scene.hydrodynamics.tolerance = 1e-4;
+  scene.hydrodynamics.check_every = 0;
+  scene.time.method = TimeMethod::rkc2;
+  scene.time.tolerance = 1e-4;
+  Physics physics = make_physics(scene, team);
+  FiberDynamics dynamics(physics);
+  const auto integrator = make_integrator(scene, physics, dynamics);
+  State state{0.0, 0, to_device("skein::bench_ranks::position", physics.make_start_nodes(1))};
+  for (int step = 0; step < 3; ++step) integrator->advance(state, 1.0);
+  // Rank 0's alone, as what the integrator does.
+  const Vectors flow("skein::bench_ranks::flow", state.position.extent(0));
+  double flow_seconds = 1e300;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+    physics.flow->compute_velocity(state.time, state.position, flow);
+    Kokkos::fence();
+    flow_seconds =
+        std::min(flow_seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  dynamics.time_parts(true);
+  double fastest = 1e300;
+  FiberDynamics::Seconds parts;
+  RankTraffic traffic;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const FiberDynamics::Seconds before = dynamics.seconds();
+    const RankTraffic sent = team != nullptr ? team->ranks().traffic() : RankTraffic{};
+    const std::int64_t evaluations = dynamics.evaluations();
+    const auto start = std::chrono::steady_clock::now();
+    for (int step = 0; step < (sections < 1000 ? 1 : 10); ++step) integrator->advance(state, 1.0);
+    const auto n = static_cast<double>(dynamics.evaluations() - evaluations);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / n;
+    if (seconds >= fastest) continue;
+    fastest = seconds;
+    parts = {(dynamics.seconds().fluid - before.fluid) / n,
+             (dynamics.seconds().springs_and_flow - before.springs_and_flow) / n};
+    if (team == nullptr) continue;
+    const RankTraffic now = team->ranks().traffic();
+    traffic = {(now.broadcast_bytes - sent.broadcast_bytes) / n, (now.gathered_bytes - sent.gathered_bytes) / n,
+               (now.exchanged_bytes - sent.exchanged_bytes) / n, (now.shared_bytes - sent.shared_bytes) / n};
+  }
+  std::printf(
+      "steps,ranks,threads,nodes,evaluation_s,sum_s,forces_s,flow_s,integrator_s,broadcast_B,shared_B,exchanged_B,"
+      "gathered_B\n");
+  std::printf("steps,%d,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n",
+              team != nullptr ? team->ranks().size() : 0, HostSpace().concurrency(), state.position.extent_int(0),
+              fastest, parts.fluid, parts.springs_and_flow - flow_seconds, flow_seconds,
+              fastest - parts.fluid - parts.springs_and_flow, traffic.broadcast_bytes, traffic.shared_bytes,
+              traffic.exchanged_bytes, traffic.gathered_bytes);
+  std::fflush(stdout);
+}
+
 void run(const std::vector<std::string>& parts, SumTeam* team) {
   const auto asked = [&](const std::string& part) {
     return std::find(parts.begin(), parts.end(), part) != parts.end();
   };
   const bool tiny = asked("tiny");
-  int n_cube = tiny ? 2000 : 1000000;
-  for (const std::string& part : parts)
-    if (part.rfind("only=", 0) == 0) n_cube = std::stoi(part.substr(5));
+  const auto number = [&](const std::string& name, const int otherwise) {
+    for (const std::string& part : parts)
+      if (part.rfind(name + "=", 0) == 0) return std::stoi(part.substr(name.size() + 1));
+    return otherwise;
+  };
+  const int n_cube = number("only", tiny ? 2000 : 1000000);
+  const auto repeats = [&](const int otherwise) { return number("repeats", tiny ? 1 : otherwise); };
   perf::print_context();
   std::printf(
       "sum,ranks,threads,nodes,fastest_s,median_s,busiest_work_s,rank0_waits_s,broadcast_B,exchanged_B,gathered_B,"
@@ -103,15 +171,16 @@ void run(const std::vector<std::string>& parts, SumTeam* team) {
   if (tiny || asked("direct")) {
     const Problem problem("direct", perf::make_straight(n_fiber), perf::fiber_blob);
     DirectMobility mobility(viscosity, Precision::in_double, KernelPath::automatic, team);
-    measure(problem, mobility, team, tiny ? 1 : 5);
+    measure(problem, mobility, team, repeats(5));
   }
   if (tiny || asked("fiber")) {
     const Problem problem("fiber", perf::make_straight(n_fiber), perf::fiber_blob);
-    measure_fmm(problem, team, tiny ? 1 : 60);
+    measure_fmm(problem, team, repeats(60));
   }
+  if (tiny || asked("run")) measure_steps(tiny ? 120 : 1313, team, repeats(10));
   if (tiny || asked("cube")) {
     const Problem problem("cube", perf::make_uniform(n_cube), 0.1 / std::cbrt(n_cube));
-    measure_fmm(problem, team, tiny ? 1 : std::clamp(4000000 / n_cube, 3, 40));
+    measure_fmm(problem, team, repeats(std::clamp(4000000 / n_cube, 3, 40)));
   }
 }
 

@@ -63,7 +63,7 @@ void ConstrainedMotion::compute_places(const ConstVectors& position, const Vecto
 void ConstrainedMotion::solve(const ConstVectors& places, const Vectors& force, const Vectors& velocity) {
   const RigidBodies& bodies = physics_.rigid_bodies;
   if (bodies.is_empty()) {
-    physics_.mobility->add_velocity({places, force, physics_.blob}, places, velocity);
+    physics_.mobility->add_velocity({places, force, physics_.blob, true}, places, velocity);
     return;
   }
   bodies.compute_poses(places, poses_);

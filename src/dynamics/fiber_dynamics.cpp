@@ -76,7 +76,7 @@ void FiberDynamics::multiply(const double time, const ConstVectors& position, co
   Kokkos::deep_copy(ExecSpace(), result, 0.0);
   physics_.compute_force_changes(time, position, displacement, force_);
   timer.begin_fluid();
-  physics_.mobility->add_velocity({position, force_, physics_.blob}, position, result);
+  physics_.mobility->add_velocity({position, force_, physics_.blob, true}, position, result);
   if (physics_.symmetry != nullptr) physics_.symmetry->project(result);
 }
 

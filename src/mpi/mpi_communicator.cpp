@@ -23,8 +23,9 @@
 namespace skein {
 namespace {
 
-constexpr std::size_t largest_piece = std::size_t{1} << 30;  // bytes of one broadcast: counts are ints
-constexpr int yield_after = 200, sleep_after = 20000;        // tests of a request
+constexpr std::size_t largest_piece = std::size_t{1} << 30;    // bytes of one broadcast: counts are ints
+constexpr std::size_t least_scattered = std::size_t{1} << 16;  // bytes of a broadcast by which links are filled
+constexpr int yield_after = 200, sleep_after = 20000;          // tests of a request
 constexpr auto nap = std::chrono::microseconds(50);
 constexpr auto tick = std::chrono::milliseconds(250);
 constexpr double grace = 2.0;        // seconds that rank 0 has to say what is wrong before it is ended
@@ -84,9 +85,13 @@ class MpiCommunicator final : public Communicator {
     traffic_.broadcast_bytes += static_cast<double>(bytes);
     for (auto* at = static_cast<char*>(data); bytes > 0;) {
       const std::size_t piece = std::min(bytes, largest_piece);
-      MPI_Request request;
-      check(MPI_Ibcast(at, static_cast<int>(piece), MPI_BYTE, 0, sums_, &request), "MPI_Ibcast");
-      wait(request);
+      if (size_ > 2 && piece >= least_scattered) {
+        scatter_to_all(at, piece);
+      } else {
+        MPI_Request request;
+        check(MPI_Ibcast(at, static_cast<int>(piece), MPI_BYTE, 0, sums_, &request), "MPI_Ibcast");
+        wait(request);
+      }
       at += piece;
       bytes -= piece;
     }
@@ -101,6 +106,17 @@ class MpiCommunicator final : public Communicator {
                        &request),
           "MPI_Igatherv");
     wait(request);
+  }
+
+  void gather_to_all(const std::vector<double*>& columns, const RankParts& parts) override {
+    const std::vector<int> count = to_ints(parts.count), first = to_ints(parts.first);
+    traffic_.shared_bytes += sizeof(double) * static_cast<double>(columns.size() * parts.total());
+    std::vector<MPI_Request> requests(columns.size());  // all of them on their way together
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      check(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DOUBLE, columns[c], count.data(), first.data(), MPI_DOUBLE, sums_,
+                            &requests[c]),
+            "MPI_Iallgatherv");
+    for (MPI_Request& request : requests) wait(request);
   }
 
   void exchange(const double* send, const RankParts& sent, double* receive, const RankParts& received) override {
@@ -156,6 +172,29 @@ class MpiCommunicator final : public Communicator {
   }
 
  private:
+  /// A part to each rank, which gives it to all others: rank 0's link carries no more than twice the bytes, whatever
+  /// the number of ranks.
+  void scatter_to_all(char* const data, const std::size_t bytes) {
+    std::vector<int> first, count;
+    for (int rank = 0; rank < size_; ++rank) {
+      first.push_back(static_cast<int>(bytes * static_cast<std::size_t>(rank) / static_cast<std::size_t>(size_)));
+      if (rank > 0) count.push_back(first.back() - first[static_cast<std::size_t>(rank) - 1]);
+    }
+    count.push_back(static_cast<int>(bytes) - first.back());
+    MPI_Request request;
+    if (rank_ == 0)
+      check(MPI_Iscatterv(data, count.data(), first.data(), MPI_BYTE, MPI_IN_PLACE, 0, MPI_BYTE, 0, sums_, &request),
+            "MPI_Iscatterv");
+    else
+      check(MPI_Iscatterv(nullptr, nullptr, nullptr, MPI_BYTE, data + first[own_rank()], count[own_rank()], MPI_BYTE, 0,
+                          sums_, &request),
+            "MPI_Iscatterv");
+    wait(request);
+    check(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_BYTE, data, count.data(), first.data(), MPI_BYTE, sums_, &request),
+          "MPI_Iallgatherv");
+    wait(request);
+  }
+
   std::size_t own_rank() const { return static_cast<std::size_t>(rank_); }
 
   void wait(MPI_Request& request) {

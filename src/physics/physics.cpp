@@ -5,6 +5,7 @@
 #include <skein/physics/physics.hpp>
 #include <skein/physics/symmetric_mobility.hpp>
 
+#include "force_share.hpp"
 #include "force_table.hpp"
 #include "motion_times.hpp"
 
@@ -38,6 +39,7 @@ std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::sha
 }  // namespace
 
 void Physics::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
+  if (shared_forces != nullptr && shared_forces->compute(forces, time, position, {}, force)) return;
   if (forces.empty()) return Kokkos::deep_copy(ExecSpace(), force, 0.0);
   forces.front()->compute_forces(time, position, force);
   for (std::size_t i = 1; i < forces.size(); ++i) forces[i]->add_forces(time, position, force);
@@ -45,6 +47,7 @@ void Physics::compute_forces(const double time, const ConstVectors& position, co
 
 void Physics::compute_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
                                     const Vectors& change) const {
+  if (shared_forces != nullptr && shared_forces->compute(forces, time, position, displacement, change)) return;
   Kokkos::deep_copy(ExecSpace(), change, 0.0);
   for (const auto& part : forces) part->add_force_changes(time, position, displacement, change);
 }
@@ -99,6 +102,7 @@ Physics make_physics(const SceneConfig& asked, SumTeam* team) {
   Sections sections(fibers);
   Scalars blob = to_device("skein::Physics::blob", make_blobs(fibers));
   std::vector<std::unique_ptr<Force>> forces = make_forces(scene, fibers);
+  std::shared_ptr<SharedForces> shared_forces = team == nullptr ? nullptr : team->share_forces(scene, fibers, forces);
   return {.fibers = std::move(fibers),
           .forces = std::move(forces),
           .flow = make_background_flow(scene.flows),
@@ -107,7 +111,8 @@ Physics make_physics(const SceneConfig& asked, SumTeam* team) {
           .sections = std::move(sections),
           .blob = blob,
           .viscosity = scene.fluid.viscosity,
-          .symmetry = std::move(symmetry)};
+          .symmetry = std::move(symmetry),
+          .shared_forces = std::move(shared_forces)};
 }
 
 }  // namespace skein

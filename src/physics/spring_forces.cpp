@@ -90,7 +90,7 @@ ForcePromises SpringForces::promises() const {
 
 void SpringForces::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {
   if (by_nodes_) return add_spring_force_by_nodes<ExecSpace>(ExecSpace(), *springs_, position, force);
-  add_spring_force<ExecSpace>(ExecSpace(), *springs_, position, force);
+  add_spring_force<ExecSpace>(ExecSpace(), *springs_, {0, position.extent_int(0)}, position, force);
 }
 
 void SpringForces::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
@@ -100,7 +100,19 @@ void SpringForces::compute_forces(const double time, const ConstVectors& positio
 
 void SpringForces::add_force_changes(double /*time*/, const ConstVectors& position, const ConstVectors& displacement,
                                      const Vectors& change) const {
-  add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, position, displacement, change);
+  add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, {0, position.extent_int(0)}, position, displacement,
+                                     change);
+}
+
+void SpringForces::add_forces_on(const int first, const int n, const double time, const ConstVectors& position,
+                                 const Vectors& force) const {
+  if (by_nodes_) return add_forces(time, position, force);
+  add_spring_force<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, force);
+}
+
+void SpringForces::add_force_changes_on(const int first, const int n, double /*time*/, const ConstVectors& position,
+                                        const ConstVectors& displacement, const Vectors& change) const {
+  add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, displacement, change);
 }
 
 double SpringForces::compute_largest_strain(const ConstVectors& position) const {

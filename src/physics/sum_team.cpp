@@ -1,99 +1,60 @@
 #include <skein/core/error.hpp>
 #include <skein/physics/sum_team.hpp>
-#include <skein/ranks/rank_error.hpp>
 
 #include "direct_share.hpp"
-#include "sum_order.hpp"
+#include "force_share.hpp"
+#include "kernels/node_checks.hpp"
+#include "sum_server.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <new>
 #include <set>
 
 namespace skein {
-namespace {
 
-RankParts one_each(const Communicator& ranks) {
-  return RankParts::behind_each_other(std::vector<std::size_t>(static_cast<std::size_t>(ranks.size()), 1));
+void send_vectors(Communicator& ranks, const ConstVectors& vectors) {
+  // Some nodes of an array have gaps between their components.
+  ConstVectors packed = vectors;
+  if (!vectors.span_is_contiguous()) {
+    const Vectors copy("skein::send_vectors::packed", vectors.extent(0));
+    Kokkos::deep_copy(copy, vectors);
+    packed = copy;
+  }
+  const auto on_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), packed);
+  // Of rank 0 nothing is changed.
+  ranks.broadcast(const_cast<double*>(on_host.data()), on_host.size() * sizeof(double));
 }
 
-std::vector<double> gather_work(Communicator& ranks) {
-  const double own = ranks.work_seconds();
-  std::vector<double> all(static_cast<std::size_t>(ranks.size()));
-  ranks.gather(&own, one_each(ranks), all.data());
-  return all;
+void send_nodes(Communicator& ranks, SumOrder& order, const Sources& sources, const ConstVectors& target,
+                HeldNodes& held) {
+  order.n_sources = sources.position.extent_int(0);
+  order.n_targets = target.extent_int(0);
+  order.are_same_nodes = are_same_nodes(sources.position, target);
+  if (order.n_sources > 0) {
+    const BlobRange blobs = find_blob_range<ExecSpace>(ExecSpace(), sources.blob);
+    order.has_one_blob = blobs.smallest == blobs.largest;
+    order.blob = blobs.largest;
+  }
+  order.are_held = held.are(sources);
+  held = {};
+  ranks.broadcast(&order, sizeof order);
+  if (!order.are_held) {
+    send_vectors(ranks, sources.position);
+    send_vectors(ranks, sources.force);
+  }
+  if (!order.are_same_nodes) send_vectors(ranks, target);
+  if (order.has_one_blob) return;
+  const auto blob = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.blob);
+  ranks.broadcast(const_cast<double*>(blob.data()), blob.size() * sizeof(double));
 }
-
-/// A fast multipole sum on a rank that serves, and the step that it has been told of.
-struct ServedFmmSum {
-  std::unique_ptr<FmmSum> sum;
-  std::int64_t n_steps = 0;
-};
-
-/// The loop of the other ranks.
-class SumServer {
- public:
-  SumServer(Communicator& ranks, const std::function<void(const Vectors& force)>& look) : ranks_(ranks), look_(look) {}
-
-  /// @returns false once dismissed
-  bool serve_next() {
-    ranks_.broadcast(&order_, sizeof order_);
-    switch (order_.kind) {
-      case SumOrder::Kind::dismiss:
-        return false;
-      case SumOrder::Kind::tell_work:
-        gather_work(ranks_);
-        return true;
-      case SumOrder::Kind::add_direct:
-        receive_nodes(ranks_, order_, nodes_);
-        ranks_.begin_work();
-        if (look_) look_(nodes_.force);
-        direct_.add_velocity(ranks_, nodes_.sources(), nodes_.target, {}, order_.viscosity, order_.precision,
-                             order_.by_teams);
-        return true;
-      case SumOrder::Kind::take_nodes:
-        receive_nodes(ranks_, order_, nodes_);
-        ranks_.begin_work();
-        if (look_) look_(nodes_.force);
-        take_nodes(sums_[order_.fmm_sum]);
-        return true;
-      case SumOrder::Kind::compute_fmm:
-        ranks_.begin_work();
-        sums_.at(order_.fmm_sum).sum->compute(order_.options, order_.plan, order_.viscosity);
-        ranks_.end_work();
-        return true;
-    }
-    throw Error(ExitCode::internal, "an order of no known kind");
-  }
-  int exit_code() const { return order_.exit_code; }
-
- private:
-  void take_nodes(ServedFmmSum& served) {
-    if (served.sum == nullptr) served.sum = make_fmm_sum(KernelPath::host, &ranks_);
-    if (served.n_steps != order_.n_steps) served.sum->begin_step();
-    served.n_steps = order_.n_steps;
-    if (!order_.is_in_step) served.sum->end_step();
-    served.sum->take(nodes_.sources(), nodes_.target);
-    ranks_.end_work();
-  }
-
-  Communicator& ranks_;
-  const std::function<void(const Vectors& force)>& look_;
-  SumOrder order_;
-  OrderedNodes nodes_;
-  DirectShare direct_;
-  std::map<int, ServedFmmSum> sums_;
-};
-
-}  // namespace
 
 struct SumTeam::Parts {
   Communicator& ranks;
   DirectShare direct;
-  std::set<int>
-      fmm_sums;  ///< that there are; those that are gone leave their numbers, and what they have on other ranks
+  /// That there are; those that are gone leave their numbers, and what they have on other ranks.
+  std::set<int> fmm_sums, scenes;
+  HeldNodes held;
   std::string partition;
 };
 
@@ -108,7 +69,7 @@ class SumTeam::SharedFmmSum final : public FmmSum {
 
   bool take(const Sources& sources, const ConstVectors& target) override {
     order_.kind = SumOrder::Kind::take_nodes;
-    send_nodes(ranks_, order_, sources, target);
+    send_nodes(ranks_, order_, sources, target, team_.held);
     return inner_->take(sources, target);
   }
   double largest_blob() const override { return inner_->largest_blob(); }
@@ -144,7 +105,7 @@ class SumTeam::SharedFmmSum final : public FmmSum {
   SumOrder order_;
 };
 
-SumTeam::SumTeam(Communicator& ranks) : parts_(std::make_unique<Parts>(Parts{ranks, {}, {}, {}})) {}
+SumTeam::SumTeam(Communicator& ranks) : parts_(std::make_unique<Parts>(Parts{ranks, {}, {}, {}, {}, {}})) {}
 SumTeam::~SumTeam() = default;
 
 const Communicator& SumTeam::ranks() const { return parts_->ranks; }
@@ -161,7 +122,7 @@ void SumTeam::add_direct(const Sources& sources, const ConstVectors& target, con
   order.viscosity = viscosity;
   order.precision = precision;
   order.by_teams = by_teams;
-  send_nodes(parts_->ranks, order, sources, target);
+  send_nodes(parts_->ranks, order, sources, target, parts_->held);
   parts_->direct.add_velocity(parts_->ranks, sources, target, velocity, viscosity, precision, by_teams);
   parts_->partition = parts_->direct.partition();
 }
@@ -171,6 +132,12 @@ std::unique_ptr<FmmSum> SumTeam::make_fmm_sum(const KernelPath path) {
   // Of a device's sum rank 0 has all.
   if (!is_on_host) return skein::make_fmm_sum(path);
   return std::make_unique<SharedFmmSum>(*parts_);
+}
+
+std::shared_ptr<SharedForces> SumTeam::share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
+                                                    const std::vector<std::unique_ptr<Force>>& forces) {
+  if (!on_host<ExecSpace> || parts_->ranks.size() == 1) return nullptr;
+  return std::make_shared<SharedForces>(parts_->ranks, parts_->held, parts_->scenes, scene, fibers, forces);
 }
 
 const std::string& SumTeam::partition() const { return parts_->partition; }
@@ -197,22 +164,6 @@ void dismiss_ranks(Communicator& ranks, const int exit_code) {
   SumOrder order;
   order.exit_code = exit_code;
   ranks.broadcast(&order, sizeof order);
-}
-
-int serve_sums(Communicator& ranks, const std::function<void(const Vectors& force)>& look) {
-  SumServer server(ranks, look);
-  try {
-    while (server.serve_next()) continue;
-  } catch (const RankError&) {
-    throw;
-  } catch (const Error& error) {
-    ranks.fail(static_cast<int>(error.code()), error.what());
-  } catch (const std::bad_alloc&) {
-    ranks.fail(71, "there is not enough memory");
-  } catch (const std::exception& error) {
-    ranks.fail(static_cast<int>(ExitCode::internal), error.what());
-  }
-  return server.exit_code();
 }
 
 }  // namespace skein

@@ -102,14 +102,24 @@ class Undulations final : public Force {
   }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
-    set_time(time);
-    Kokkos::parallel_for("skein::add_undulation_forces", nodes(), AddWaveForce{waves_, position, force});
+    add_forces_on(0, position.extent_int(0), time, position, force);
+  }
+  void add_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
+                         const Vectors& change) const override {
+    add_force_changes_on(0, position.extent_int(0), time, position, displacement, change);
   }
 
-  void add_force_changes(const double time, const ConstVectors& /*position*/, const ConstVectors& displacement,
-                         const Vectors& change) const override {
+  void add_forces_on(const int first, const int n, const double time, const ConstVectors& position,
+                     const Vectors& force) const override {
     set_time(time);
-    Kokkos::parallel_for("skein::add_undulation_force_changes", nodes(), AddWaveForce{waves_, displacement, change});
+    Kokkos::parallel_for("skein::add_undulation_forces", Nodes(ExecSpace(), first, first + n),
+                         AddWaveForce{waves_, position, force});
+  }
+  void add_force_changes_on(const int first, const int n, const double time, const ConstVectors& /*position*/,
+                            const ConstVectors& displacement, const Vectors& change) const override {
+    set_time(time);
+    Kokkos::parallel_for("skein::add_undulation_force_changes", Nodes(ExecSpace(), first, first + n),
+                         AddWaveForce{waves_, displacement, change});
   }
 
   void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
@@ -141,7 +151,7 @@ class Undulations final : public Force {
   }
 
  private:
-  Kokkos::RangePolicy<ExecSpace> nodes() const { return {ExecSpace(), 0, waves_.fiber_of_node.extent(0)}; }
+  using Nodes = Kokkos::RangePolicy<ExecSpace>;
 
   void set_time(const double time) const {
     Kokkos::parallel_for("skein::compute_preferred_curvature",

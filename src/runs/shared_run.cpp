@@ -68,9 +68,9 @@ int share_run(Communicator* ranks, const int threads, const std::function<int(Co
 std::string describe_ranks(SumTeam& team) {
   const Communicator& ranks = team.ranks();
   const std::string partition = team.partition().empty() ? "no sum yet" : team.partition();
-  return fmt::format("ranks: {}, {}, each {}; they share sums, whose bits are the same for any number of them: {}; {}",
-                     ranks.size(), ranks.describe(), describe_backend(), partition,
-                     describe_balance(team.work_seconds()));
+  return fmt::format(
+      "ranks: {}, {}, each {}; they share sums and forces, whose bits are the same for any number of them: {}; {}",
+      ranks.size(), ranks.describe(), describe_backend(), partition, describe_balance(team.work_seconds()));
 }
 
 }  // namespace skein

@@ -47,6 +47,17 @@ class Force {
   virtual void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
                                  const Vectors& change) const = 0;
 
+  /// The same two for the nodes [first, first + n): these get the same bits; of the others' numbers nothing is said.
+  /// Ranks share the forces of a scene by them. A force that has no way for a few nodes does it for all.
+  virtual void add_forces_on(int /*first*/, int /*n*/, const double time, const ConstVectors& position,
+                             const Vectors& force) const {
+    add_forces(time, position, force);
+  }
+  virtual void add_force_changes_on(int /*first*/, int /*n*/, const double time, const ConstVectors& position,
+                                    const ConstVectors& displacement, const Vectors& change) const {
+    add_force_changes(time, position, displacement, change);
+  }
+
   /// Adds its energy, force * length; halves of what two fibers share. A force that has none adds nothing.
   /// @param energy  [n_fibers]
   virtual void add_energies(double /*time*/, const ConstVectors& /*position*/, std::vector<double>& /*energy*/) const {}

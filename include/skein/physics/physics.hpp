@@ -16,6 +16,7 @@
 
 namespace skein {
 
+class SharedForces;
 class SumTeam;
 
 /// All that a scene says of the world, ready to be asked: fibers, the forces on their nodes, the flow and the fluid.
@@ -31,6 +32,7 @@ struct Physics {
   Scalars blob;                                  ///< [n_nodes], length
   double viscosity = 1.0;                        ///< force * time / length^2
   std::shared_ptr<const NodeSymmetry> symmetry;  ///< that velocities keep; null: none
+  std::shared_ptr<SharedForces> shared_forces;   ///< with ranks; null: none. Forces put in by others are not shared
 
   /// Nodes at the start, of which those of a symmetric scene are images of each other to the last bit.
   /// @param seed  of random bends  @returns [n_nodes], length

@@ -3,7 +3,9 @@
 #include <skein/arrays/sources.hpp>
 #include <skein/core/precision.hpp>
 #include <skein/fmm/fmm_sum.hpp>
+#include <skein/physics/force.hpp>
 #include <skein/ranks/communicator.hpp>
+#include <skein/scene/scene_config.hpp>
 
 #include <functional>
 #include <memory>
@@ -12,9 +14,11 @@
 
 namespace skein {
 
-/// Ranks that share the sums of one run. Rank 0 holds the run and this object, and asks the others for their parts of a
-/// sum when there is one; they hold no state of the run and take no decision, so that nothing of a run can depend on
-/// how many they are. The others call serve_sums.
+class SharedForces;
+
+/// Ranks that share the sums and forces of one run. Rank 0 holds the run and this object, and asks the others for their
+/// parts of a sum when there is one; they hold no state of the run and take no decision, so that nothing of a run can
+/// depend on how many they are. The others call serve_sums.
 class SumTeam {
  public:
   /// @param ranks  must outlive the team, which holds arrays
@@ -31,6 +35,11 @@ class SumTeam {
 
   /// A fast multipole sum that ranks share, to be used as that of one process. The team must outlive it.
   std::unique_ptr<FmmSum> make_fmm_sum(KernelPath path);
+
+  /// The forces of a scene, to be computed by all ranks; null where there are no others, or where forces are computed
+  /// on devices. @param scene  as make_physics is given it  @param forces  made of it
+  std::shared_ptr<SharedForces> share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
+                                             const std::vector<std::unique_ptr<Force>>& forces);
 
   /// How the last sum was divided, in words; empty before there was one.
   const std::string& partition() const;

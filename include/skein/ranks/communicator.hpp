@@ -18,6 +18,7 @@ struct RankParts {
 /// What a process has sent and received since it began, and how long it has waited for it.
 struct RankTraffic {
   double broadcast_bytes = 0.0, gathered_bytes = 0.0, exchanged_bytes = 0.0;
+  double shared_bytes = 0.0;  ///< by gather_to_all: all of the arrays
   double messages = 0.0;      ///< calls that move something, of any kind
   double wait_seconds = 0.0;  ///< for others to come and for bytes to move
 };
@@ -42,6 +43,9 @@ class Communicator {
   /// What all ranks have, on rank 0. @param parts  of `all`, known to every rank; rank r sends count[r] doubles
   virtual void gather(const double* own, const RankParts& parts, double* all) = 0;
 
+  /// What each rank has of some arrays, on all ranks. @param columns  [parts.total()] each, with this rank's part
+  virtual void gather_to_all(const std::vector<double*>& columns, const RankParts& parts) = 0;
+
   /// From each rank to each. @param sent, received  count of what a rank sends equals that of what the other receives
   virtual void exchange(const double* send, const RankParts& sent, double* receive, const RankParts& received) = 0;
 
@@ -65,6 +69,7 @@ class LoneProcess final : public Communicator {
   std::string describe() const override { return "one process"; }
   void broadcast(void*, std::size_t) override {}
   void gather(const double* own, const RankParts& parts, double* all) override;
+  void gather_to_all(const std::vector<double*>&, const RankParts&) override {}
   void exchange(const double* send, const RankParts& sent, double* receive, const RankParts& received) override;
   [[noreturn]] void fail(int exit_code, const std::string& message) override;
 };

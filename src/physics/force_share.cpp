@@ -1,0 +1,92 @@
+#include "force_share.hpp"
+
+#include <skein/physics/chain.hpp>
+#include <skein/scene/scene_file.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace skein {
+namespace {
+
+/// Of a section's springs, which each node has with about all nodes in reach.
+double count_springs(const FiberConfig& fiber) {
+  return static_cast<double>(fiber.nodes_per_section) * fiber.nodes_per_section * (1 + 2 * fiber.reach_along);
+}
+
+}  // namespace
+
+RankParts share_nodes(const std::vector<Fiber>& fibers, const int n_ranks) {
+  double total = 0.0, before = 0.0;
+  for (const Fiber& fiber : fibers) total += count_springs(fiber.config) * fiber.config.sections;
+  std::vector<std::size_t> count(static_cast<std::size_t>(n_ranks));
+  std::size_t rank = 0;
+  for (const Fiber& fiber : fibers) {
+    const double springs = count_springs(fiber.config);
+    for (int section = 0; section < fiber.config.sections; ++section, before += springs) {
+      while (rank + 1 < count.size() && (before + 0.5 * springs) * n_ranks > total * static_cast<double>(rank + 1))
+        ++rank;
+      count[rank] += static_cast<std::size_t>(fiber.config.nodes_per_section);
+    }
+  }
+  return RankParts::behind_each_other(std::move(count));
+}
+
+ForceShare::ForceShare(const SceneConfig& scene, const int n_ranks) {
+  const std::vector<Fiber> fibers = make_fibers(resolve_chains(scene).fibers);
+  forces = make_forces(resolve_chains(scene), fibers);
+  nodes = share_nodes(fibers, n_ranks);
+}
+
+void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const ForceList& forces, const double time,
+                         const ConstVectors& position, const ConstVectors& displacement, const Vectors& force) {
+  SKEIN_REQUIRE(force.extent(0) == nodes.total() && position.extent(0) == nodes.total(),
+                "positions, forces and the nodes of the scene differ in number");
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  const int first = static_cast<int>(nodes.first[rank]), n = static_cast<int>(nodes.count[rank]);
+  ranks.begin_work();
+  const ExecSpace space;
+  Kokkos::deep_copy(space, Kokkos::subview(force, std::make_pair(first, first + n), Kokkos::ALL()), 0.0);
+  for (const auto& part : forces)
+    if (displacement.is_allocated())
+      part->add_force_changes_on(first, n, time, position, displacement, force);
+    else
+      part->add_forces_on(first, n, time, position, force);
+  space.fence();
+  std::vector<double*> columns;
+  for (int c = 0; c < 3; ++c) columns.push_back(force.data() + static_cast<std::size_t>(c) * force.stride(1));
+  ranks.gather_to_all(columns, nodes);
+  ranks.end_work();
+}
+
+SharedForces::SharedForces(Communicator& ranks, HeldNodes& held, std::set<int>& numbers, const SceneConfig& scene,
+                           const std::vector<Fiber>& fibers, const ForceList& forces)
+    : ranks_(ranks), held_(held), numbers_(numbers), nodes_(share_nodes(fibers, ranks.size())) {
+  for (const auto& force : forces) known_.push_back(force.get());
+  while (!numbers_.insert(order_.scene).second) ++order_.scene;
+  order_.kind = SumOrder::Kind::know_scene;
+  std::string text = write_scene(scene);
+  order_.n_bytes = text.size();
+  ranks_.broadcast(&order_, sizeof order_);
+  ranks_.broadcast(text.data(), text.size());
+}
+
+SharedForces::~SharedForces() { numbers_.erase(order_.scene); }
+
+bool SharedForces::compute(const ForceList& forces, const double time, const ConstVectors& position,
+                           const ConstVectors& displacement, const Vectors& force) {
+  held_ = {};
+  const auto is_same = [](const auto& there, const Force* known) { return there.get() == known; };
+  if (!std::equal(forces.begin(), forces.end(), known_.begin(), known_.end(), is_same)) return false;
+  order_.kind = displacement.is_allocated() ? SumOrder::Kind::compute_force_changes : SumOrder::Kind::compute_forces;
+  order_.time = time;
+  order_.n_sources = position.extent_int(0);
+  ranks_.broadcast(&order_, sizeof order_);
+  send_vectors(ranks_, position);
+  if (displacement.is_allocated()) send_vectors(ranks_, displacement);
+  ForceShare::compute(ranks_, nodes_, forces, time, position, displacement, force);
+  held_ = {position.data(), force.data(), position.extent_int(0)};
+  return true;
+}
+
+}  // namespace skein

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <skein/physics/sum_team.hpp>
+#include <skein/scene/scene_config.hpp>
+
+#include "force_table.hpp"
+#include "sum_order.hpp"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace skein {
+
+/// Of a scene that ranks know: its forces, and for whose nodes each rank computes them, which are whole sections.
+struct ForceShare {
+  ForceList forces;
+  RankParts nodes;
+
+  explicit ForceShare(const SceneConfig& scene, int n_ranks);
+
+  /// To be called by all ranks. Overwrites `force` with the sum of all forces, or of their changes, on all nodes; its
+  /// order does not depend on how many ranks there are.
+  /// @param displacement  empty: forces, not changes of them
+  static void compute(Communicator& ranks, const RankParts& nodes, const ForceList& forces, double time,
+                      const ConstVectors& position, const ConstVectors& displacement, const Vectors& force);
+};
+
+/// Nodes of consecutive sections for each rank, with about as many springs.
+RankParts share_nodes(const std::vector<Fiber>& fibers, int n_ranks);
+
+/// Rank 0's side of a scene's forces that all ranks compute. The team must outlive it.
+class SharedForces {
+ public:
+  /// Tells the others of the scene. @param forces  that make_forces has made of it
+  /// @param held, numbers  of the team: what the others hold, and scenes that there are
+  SharedForces(Communicator& ranks, HeldNodes& held, std::set<int>& numbers, const SceneConfig& scene,
+               const std::vector<Fiber>& fibers, const ForceList& forces);
+  ~SharedForces();
+  SharedForces(const SharedForces&) = delete;
+  SharedForces& operator=(const SharedForces&) = delete;
+
+  /// See ForceShare::compute. @returns false, with nothing done, where these are not the forces that the others know
+  bool compute(const ForceList& forces, double time, const ConstVectors& position, const ConstVectors& displacement,
+               const Vectors& force);
+
+ private:
+  Communicator& ranks_;
+  HeldNodes& held_;
+  std::set<int>& numbers_;
+  std::vector<const Force*> known_;
+  RankParts nodes_;
+  SumOrder order_;
+};
+
+}  // namespace skein
