@@ -1,18 +1,22 @@
 #!/usr/bin/python3
-"""A model of sums that ranks share by the fast multipole method, from what bench_ranks measured, drawn up to 64 nodes.
+"""A model of evaluations that ranks share by the fast multipole method, from what bench_ranks measured, drawn up to 64 nodes.
 
-Usage: (bench_ranks cube only=200000; for n in 1 2 4; do mpirun -n $n bench_ranks cube only=200000; done) > ranks.csv
+Usage: for n in 1 2 4; do mpirun -n $n bench_ranks run cube only=200000; done > ranks.csv
        scaling_model.py ranks.csv ranks.png
 
 One thread a rank. Lines of several numbers of nodes may stand behind each other. From the lines of one rank come the seconds
 a node of each part, from all lines bytes and messages. A rank of the model is a node of CORES cores that share its part; what
 is assumed beyond the measurements is said below and in the picture:
 
-  shared      near field, far field, sorting: seconds of one rank / ranks / cores
+  shared      near field, far field, sorting, forces: seconds of one rank / ranks / cores
   replicated  the tree, which every rank builds: half of it serial; in a step it serves KEPT sums
   top         boxes above several ranks, made by all: (ranks - 1) boxes a level
-  leader      springs and integrator, rank 0's alone: a share of the shared work
-  network     broadcast of 48 bytes a node, gather of 24, coefficients as fitted; latency and bandwidth of a cluster
+  leader      flow and integrator, rank 0's alone
+  network     bytes by rank 0's link, which is the busiest: a broadcast passes it once for two ranks, nearly twice for more
+              (a part to each, which gives it to all others), a gather, also to all, once but for its own part; coefficients
+              as fitted. Arrays take two latencies each, as the receiver is asked first; orders travel with them. Sums by
+              themselves broadcast positions and forces; in a run forces are gathered to all.
+perf/shaped_network.py compares this with networks that are slow enough to be made on one machine.
 """
 import csv
 import sys
@@ -25,8 +29,9 @@ import numpy as np
 
 CORES = 32
 LATENCY = 2e-6  # seconds a message
-BANDWIDTH = 1e10  # bytes / second, of a node's link
-LEADER_SHARE = 0.035  # of an evaluation by one thread: springs and integrator of 23 634 nodes
+BANDWIDTH = 1e10  # bytes / second, of a node's link, each way
+SENDING = 5e-7  # seconds that rank 0 takes for a message to or from each other rank
+ORDERS = 2.0  # of the messages of a sum
 SERIAL_TREE = 0.5  # of building a tree
 KEPT = 8.0  # sums that a tree serves in a run (docs/hydrodynamics.md)
 PARTS = ("shared", "replicated", "top", "leader", "network")
@@ -34,43 +39,57 @@ COLORS = dict(zip(PARTS, ("tab:blue", "tab:orange", "tab:red", "tab:purple", "ta
 
 
 def read_rows(path):
-    rows, names = [], None
+    rows, steps, names = [], [], None
     with open(path, encoding="utf-8") as file:
         for row in csv.reader(line for line in file if "," in line and not line.startswith("#")):
-            if row[0] == "sum":
+            if row[1] == "ranks":
                 names = row
-            elif names and row[0] == "cube" and len(row) == len(names):
-                rows.append({name: row[0] if name == "sum" else float(value) for name, value in zip(names, row)})
+            elif names and row[0] in ("cube", "steps") and len(row) == len(names):
+                numbers = {name: float(value) for name, value in list(zip(names, row))[1:]}
+                (rows if row[0] == "cube" else steps).append(numbers)
     if not any(row["ranks"] == 1 for row in rows) or not any(row["ranks"] > 1 for row in rows):
         sys.exit("scaling_model.py: lines of the cube on one rank and on several are needed")
-    return rows
+    return rows, steps
 
 
 class Model:
-    def __init__(self, rows):
+    def __init__(self, rows, steps=()):
         one = [row for row in rows if row["ranks"] == 1]
         several = [row for row in rows if row["ranks"] > 1]
         per_node = lambda *names: float(np.mean([sum(row[name] for name in names) / row["nodes"] for row in one]))
         self.shared = per_node("far_s", "leaf_s", "sort_s")
         self.tree = per_node("tree_s")
+        alone = [row for row in steps if row["ranks"] == 1]
+        of_steps = lambda *names: float(np.mean([sum(row[name] for name in names) / row["nodes"] for row in alone])) if alone else 0.0
+        self.forces, self.leader = of_steps("forces_s"), of_steps("flow_s", "integrator_s")
         self.far_box = float(np.mean([row["far_s"] / row["boxes"] for row in one]))
         self.box_nodes = float(np.mean([row["nodes"] / row["boxes"] for row in one]))
         # Boxes at the surface of a part: so many bytes for (nodes a rank)^(2/3).
         self.surface = float(np.mean([row["exchanged_B"] / (row["nodes"] / row["ranks"]) ** (2 / 3) for row in several]))
         self.broadcast = float(np.mean([row["broadcast_B"] / row["nodes"] for row in several]))
         self.gather = float(np.mean([row["gathered_B"] / row["nodes"] for row in several]))
-        self.messages = float(np.mean([row["messages"] for row in several]))
+        self.messages = {n: float(np.mean([row["messages"] for row in several if row["ranks"] == n]))
+                         for n in sorted({row["ranks"] for row in several})}
 
-    def seconds(self, n, ranks, cores=CORES, latency=LATENCY, bandwidth=BANDWIDTH, kept=KEPT):
+    def network(self, n, ranks, latency, bandwidth, in_run):
+        if ranks == 1:
+            return 0.0
+        others = (ranks - 1) / ranks
+        broadcast, to_all = (0.5 * self.broadcast, 0.5 * self.broadcast) if in_run else (self.broadcast, 0.0)
+        by_link = broadcast * (1.0 if ranks == 2 else 2.0 * others) + (self.gather + to_all) * others
+        # Of the largest number of ranks that was measured, if not of this one.
+        messages = self.messages.get(float(ranks), list(self.messages.values())[-1])
+        bytes_moved = by_link * n + self.surface * (n / ranks) ** (2 / 3)
+        return bytes_moved / bandwidth + 2.0 * (messages - ORDERS) * latency + messages * (ranks - 1) * SENDING
+
+    def seconds(self, n, ranks, cores=CORES, latency=LATENCY, bandwidth=BANDWIDTH, kept=KEPT, in_run=True):
         levels = max(1.0, np.log(n / self.box_nodes) / np.log(8.0))
-        hops = np.ceil(np.log2(ranks)) if ranks > 1 else 0.0
-        bytes_moved = (self.broadcast + self.gather) * n + self.surface * (n / ranks) ** (2 / 3)
         return {
-            "shared": self.shared * n / ranks / cores,
+            "shared": (self.shared + (self.forces if in_run else 0.0)) * n / ranks / cores,
             "replicated": self.tree / kept * n * (SERIAL_TREE + (1.0 - SERIAL_TREE) / cores),
             "top": self.far_box * (ranks - 1) * levels / cores,
-            "leader": LEADER_SHARE * self.shared * n / cores,
-            "network": 0.0 if ranks == 1 else bytes_moved / bandwidth + (self.messages * hops + 2.0 * ranks) * latency,
+            "leader": self.leader * n / cores if in_run else 0.0,
+            "network": self.network(n, ranks, latency, bandwidth, in_run),
         }
 
 
@@ -79,7 +98,7 @@ def compare(model, rows):
     for row in rows:
         if row["ranks"] < 2:
             continue
-        parts = model.seconds(row["nodes"], int(row["ranks"]), cores=1, latency=5e-6, bandwidth=3e9, kept=1.0)
+        parts = model.seconds(row["nodes"], int(row["ranks"]), cores=1, latency=5e-6, bandwidth=3e9, kept=1.0, in_run=False)
         work = sum(parts[name] for name in ("shared", "replicated", "top"))
         print(f"{row['nodes']:.0f} nodes, {row['ranks']:.0f} ranks: work of the busiest rank {row['busiest_work_s']:.3g} s, "
               f"by the model {work:.3g} s; exchanged {row['exchanged_B']:.3g} bytes, by the model "
@@ -106,7 +125,7 @@ def draw(model, path):
         print(f"N = {n:.0e}: {total[0]:.3g} s on one node, {total[-1]:.3g} s on 64; half of the time is not shared from "
               f"{ends} nodes on, most of it {largest}; efficiency on 4, 16, 64: "
               f"{efficiency[2]:.2f}, {efficiency[4]:.2f}, {efficiency[6]:.2f}")
-    axes[0].set_ylabel("seconds of a sum")
+    axes[0].set_ylabel("seconds of an evaluation")
     axes[0].legend(fontsize=8)
     figure.suptitle(f"Extrapolated: {LATENCY * 1e6:g} us, {BANDWIDTH / 1e9:g} GB/s; tree and arrays on every rank, a tree for {KEPT:g} sums", fontsize=10)
     figure.tight_layout()
@@ -114,10 +133,11 @@ def draw(model, path):
 
 
 def main():
-    rows = read_rows(sys.argv[1])
-    model = Model(rows)
-    print(f"a node: shared {model.shared:.3g} s, tree {model.tree:.3g} s, broadcast {model.broadcast:.3g} and gathered "
-          f"{model.gather:.3g} bytes; {model.messages:.3g} messages a sum; exchanged {model.surface:.3g} bytes (N / ranks)^(2/3)")
+    rows, steps = read_rows(sys.argv[1])
+    model = Model(rows, steps)
+    print(f"a node: shared {model.shared:.3g} s, forces {model.forces:.3g} s, tree {model.tree:.3g} s, rank 0's alone "
+          f"{model.leader:.3g} s, broadcast {model.broadcast:.3g} and gathered "
+          f"{model.gather:.3g} bytes; {list(model.messages.values())[-1]:.3g} messages a sum; exchanged {model.surface:.3g} bytes (N / ranks)^(2/3)")
     compare(model, rows)
     draw(model, sys.argv[2])
 
