@@ -28,6 +28,14 @@ namespace {
 
 constexpr double viscosity = 1.0;
 
+template <class Function>
+double time_call(const Function& function) {
+  const auto start = std::chrono::steady_clock::now();
+  function();
+  Kokkos::fence();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 struct Problem {
   std::string name;
   Vectors position, force, velocity;
@@ -50,10 +58,7 @@ struct Problem {
 /// Times sums outside of steps, each with a tree of its own; in steps trees serve several.
 void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const int repeats) {
   const Sources sources{problem.position, problem.force, problem.blob};
-  const auto sum = [&] {
-    mobility.add_velocity(sources, problem.position, problem.velocity);
-    Kokkos::fence();
-  };
+  const auto sum = [&] { mobility.add_velocity(sources, problem.position, problem.velocity); };
   sum();
   const std::vector<double> work_before = team != nullptr ? team->work_seconds() : std::vector<double>{0.0};
   const RankTraffic before = team != nullptr ? team->ranks().traffic() : RankTraffic{};
@@ -61,9 +66,7 @@ void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const in
   FmmStatistics statistics;  // of the fastest
   std::vector<double> seconds;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    const auto start = std::chrono::steady_clock::now();
-    sum();
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(time_call(sum));
     if (fmm != nullptr && seconds.back() <= *std::min_element(seconds.begin(), seconds.end()))
       statistics = fmm->statistics();
   }
@@ -112,11 +115,8 @@ void measure_steps(const int sections, SumTeam* team, const int repeats) {
   const Vectors flow("skein::bench_ranks::flow", state.position.extent(0));
   double flow_seconds = 1e300;
   for (int repeat = 0; repeat < 20; ++repeat) {
-    const auto start = std::chrono::steady_clock::now();
-    physics.flow->compute_velocity(state.time, state.position, flow);
-    Kokkos::fence();
-    flow_seconds =
-        std::min(flow_seconds, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    const double last = time_call([&] { physics.flow->compute_velocity(state.time, state.position, flow); });
+    flow_seconds = std::min(flow_seconds, last);
   }
   dynamics.time_parts(true);
   double fastest = 1e300;
@@ -126,10 +126,11 @@ void measure_steps(const int sections, SumTeam* team, const int repeats) {
     const FiberDynamics::Seconds before = dynamics.seconds();
     const RankTraffic sent = team != nullptr ? team->ranks().traffic() : RankTraffic{};
     const std::int64_t evaluations = dynamics.evaluations();
-    const auto start = std::chrono::steady_clock::now();
-    for (int step = 0; step < (sections < 1000 ? 1 : 10); ++step) integrator->advance(state, 1.0);
+    const double of_all = time_call([&] {
+      for (int step = 0; step < (sections < 1000 ? 1 : 10); ++step) integrator->advance(state, 1.0);
+    });
     const auto n = static_cast<double>(dynamics.evaluations() - evaluations);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / n;
+    const double seconds = of_all / n;
     if (seconds >= fastest) continue;
     fastest = seconds;
     parts = {(dynamics.seconds().fluid - before.fluid) / n,

@@ -65,7 +65,7 @@ SharedForces::SharedForces(Communicator& ranks, HeldNodes& held, std::set<int>& 
   for (const auto& force : forces) known_.push_back(force.get());
   while (!numbers_.insert(order_.scene).second) ++order_.scene;
   order_.kind = SumOrder::Kind::know_scene;
-  std::string text = write_scene(scene);
+  std::string text = write_readable_scene(scene);
   order_.n_bytes = text.size();
   ranks_.broadcast(&order_, sizeof order_);
   ranks_.broadcast(text.data(), text.size());

@@ -33,6 +33,7 @@ RankParts share_nodes(const std::vector<Fiber>& fibers, int n_ranks);
 class SharedForces {
  public:
   /// Tells the others of the scene. @param forces  that make_forces has made of it
+  /// @throws Error(scene_error) where the scene's text could not be read by them
   /// @param held, numbers  of the team: what the others hold, and scenes that there are
   SharedForces(Communicator& ranks, HeldNodes& held, std::set<int>& numbers, const SceneConfig& scene,
                const std::vector<Fiber>& fibers, const ForceList& forces);
