@@ -130,7 +130,8 @@ class MpiCommunicator final : public Communicator {
     wait(request);
   }
 
-  void begin_work() override {
+  void begin_work(const RankWork kind) override {
+    kind_ = static_cast<std::size_t>(kind);
     works_ = true;
     work_since_ = now();
   }
@@ -220,7 +221,8 @@ class MpiCommunicator final : public Communicator {
     if (since < 0.0) return;
     const double seconds = now() - since;
     work_seconds_ += seconds;
-    longest_work_ = std::max(forgetting * longest_work_, seconds);
+    std::atomic<double>& longest = longest_work_[kind_];
+    longest = std::max(forgetting * longest, seconds);
   }
 
   std::string problem() {
@@ -256,7 +258,8 @@ class MpiCommunicator final : public Communicator {
             fmt::format("rank {} has not been heard of for {:g} s: its process is stopped, or its machine is not "
                         "to be reached",
                         silent, PulseBook::longest_silence));
-      if (const std::string fault = work.look(now(), work_since_, longest_work_, read_clock(CLOCK_PROCESS_CPUTIME_ID));
+      if (const std::string fault =
+              work.look(now(), work_since_, longest_work_[kind_], read_clock(CLOCK_PROCESS_CPUTIME_ID));
           !fault.empty())
         give_up(fmt::format("rank {} {}", rank_, fault));
       if (has_problem_ && !is_said_ && now() - problem_at_ > grace) give_up(problem());
@@ -306,7 +309,9 @@ class MpiCommunicator final : public Communicator {
   bool is_watched_ = false, works_ = false;
   double work_seconds_ = 0.0;
   RankTraffic traffic_;
-  std::atomic<double> work_since_{-1.0}, longest_work_{0.0}, problem_at_{0.0};
+  std::atomic<double> work_since_{-1.0}, problem_at_{0.0};
+  std::atomic<double> longest_work_[n_kinds_of_rank_work] = {};  ///< of each kind
+  std::atomic<std::size_t> kind_{0};
   std::atomic<bool> is_over_{false}, has_problem_{false}, is_said_{false};
   std::atomic<int> problem_code_{0};
   std::mutex mutex_;

@@ -78,7 +78,7 @@ void DirectShare::add_for_targets(Communicator& ranks, const Sources& sources, c
   for (int& edge : first) edge = math::smaller(edge * block_targets, n_targets);
   const int own_first = first[static_cast<std::size_t>(ranks.rank())], n_own = count_of(first, ranks.rank());
   const Vectors own("skein::DirectShare::own", static_cast<std::size_t>(n_own));
-  ranks.begin_work();
+  ranks.begin_work(RankWork::direct_sum);
   if (n_own > 0) {
     const auto own_targets = Kokkos::subview(target, std::make_pair(own_first, own_first + n_own), Kokkos::ALL());
     add_general_velocity(sources, own_targets, n_targets, own, viscosity, precision, by_teams, partial_);
@@ -101,7 +101,7 @@ void DirectShare::add_in_rounds(const Space& space, Communicator& ranks, const S
     const std::vector<int> first = cut_evenly(n_nodes, n_ranks);
     const std::vector<RoundBlock> own_blocks = rounds.list_blocks(shares[static_cast<std::size_t>(ranks.rank())]);
     partition_ = fmt::format("{} rounds of pairs, each pair of nodes in one of them", rounds.n_tiles);
-    ranks.begin_work();
+    ranks.begin_work(RankWork::direct_sum);
     if (blocks_.size() < own_blocks.size()) blocks_.resize(own_blocks.size());
     for (std::size_t b = 0; b < own_blocks.size(); ++b) {
       if (blocks_[b].extent_int(0) != n_nodes) blocks_[b] = HostVectors("skein::DirectShare::block", n_nodes);

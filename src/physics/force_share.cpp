@@ -44,7 +44,7 @@ void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const Forc
                 "positions, forces and the nodes of the scene differ in number");
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const int first = static_cast<int>(nodes.first[rank]), n = static_cast<int>(nodes.count[rank]);
-  ranks.begin_work();
+  ranks.begin_work(RankWork::forces);
   const ExecSpace space;
   Kokkos::deep_copy(space, Kokkos::subview(force, std::make_pair(first, first + n), Kokkos::ALL()), 0.0);
   for (const auto& part : forces)

@@ -86,19 +86,19 @@ class SumServer {
         return true;
       case SumOrder::Kind::add_direct:
         receive_nodes(ranks_, order_, nodes_);
-        ranks_.begin_work();
+        ranks_.begin_work(RankWork::direct_sum);
         if (look_) look_(nodes_.force);
         direct_.add_velocity(ranks_, nodes_.sources(), nodes_.target, {}, order_.viscosity, order_.precision,
                              order_.by_teams);
         return true;
       case SumOrder::Kind::take_nodes:
         receive_nodes(ranks_, order_, nodes_);
-        ranks_.begin_work();
+        ranks_.begin_work(RankWork::taking_nodes);
         if (look_) look_(nodes_.force);
         take_nodes(sums_[order_.fmm_sum]);
         return true;
       case SumOrder::Kind::compute_fmm:
-        ranks_.begin_work();
+        ranks_.begin_work(RankWork::fmm_sum);
         sums_.at(order_.fmm_sum).sum->compute(order_.options, order_.plan, order_.viscosity);
         ranks_.end_work();
         return true;

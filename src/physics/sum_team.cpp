@@ -88,7 +88,7 @@ class SumTeam::SharedFmmSum final : public FmmSum {
     order_.plan = plan;
     order_.viscosity = viscosity;
     ranks_.broadcast(&order_, sizeof order_);
-    ranks_.begin_work();
+    ranks_.begin_work(RankWork::fmm_sum);
     const bool is_done = inner_->compute(options, plan, viscosity);
     ranks_.end_work();
     statistics = inner_->statistics;

@@ -23,6 +23,10 @@ struct RankTraffic {
   double wait_seconds = 0.0;  ///< for others to come and for bytes to move
 };
 
+/// What a rank works on. How long it may take is judged by what took long before of the same kind.
+enum class RankWork { forces, taking_nodes, direct_sum, fmm_sum };
+inline constexpr std::size_t n_kinds_of_rank_work = 4;
+
 /// Processes that compute one run together: rank 0 leads, the others do what it asks for. All arrays are in the host's
 /// memory. Every function that sends is called by all ranks, in the same order.
 ///
@@ -51,7 +55,7 @@ class Communicator {
 
   /// A part of a sum begins and ends: in between this process computes, and if it does not although it should, the run
   /// is ended.
-  virtual void begin_work() {}
+  virtual void begin_work(RankWork /*kind*/) {}
   virtual void end_work() {}
   /// Wall time that this process has worked since it began, seconds: without what it waited for others.
   virtual double work_seconds() const { return 0.0; }
