@@ -1,7 +1,9 @@
 #pragma once
 
 #include "fmm/box_passes.hpp"
+#include "fmm/tail_moments.hpp"
 
+#include <type_traits>
 #include <vector>
 
 namespace skein {
@@ -29,7 +31,9 @@ void compute_coefficients(const Workers& workers, const Passes<Space, Real, Fiel
   const auto at = [](const std::vector<IndexRange>& ranges, const int level) {
     return ranges[static_cast<std::size_t>(level)];
   };
-  const SourcesToLeaves<Space, Real, Field> from_sources{passes};
+  using FromSources = std::conditional_t<std::is_same_v<Field, TailField>, SourcesToMoments<Space, Real>,
+                                         SourcesToLeaves<Space, Real, Field>>;
+  const FromSources from_sources{passes};
   const ChildrenToParents<Space, Real, Field> up{passes};
   for (const IndexRange run : join_levels(boxes.sources)) workers.for_boxes("skein::run_p2m", run, from_sources);
   for (int level = n_levels - 2; level >= first_far_level; --level)

@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 
+#include "fmm/blob_floor.hpp"
 #include "fmm/fmm_paths.hpp"
 
 #include <fmt/format.h>
@@ -18,20 +19,36 @@ OctreeRules make_octree_rules(const FmmOptions& options, const FmmPlan& plan) {
   OctreeRules rules;
   rules.leaf_size = plan.leaf_size;
   rules.min_half_width = plan.min_half_width;
+  if (plan.tail_degree > 0 && plan.plain_half_width > 0.0) {
+    rules.easy_half_width = plan.plain_half_width;
+    FmmPlan plain = plan;
+    plain.tail_degree = 0;
+    const auto cost = [&](const FmmWork& work, const FmmPlan& by) {
+      return estimate_nanoseconds(work, by, true, options.path);
+    };
+    rules.costs = {cost({.near_pairs = 1.0}, plan), cost({.far_pairs = 1.0}, plan), cost({.n_boxes = 1.0}, plan),
+                   cost({.n_sources = 2.0}, plan) - cost({.n_sources = 2.0}, plain)};
+  }
   rules.has_quantized_cells = options.far_field == FarField::regularized;
   const int edge = plan.order - 1;
   rules.min_sources_for_expansion = 6 * edge * edge + 2;
   return rules;
 }
 
-void settle_plan(const FmmOptions& options, const BlobRange blobs, const double largest_leaf, FmmPlan& plan) {
+void settle_plan(const FmmOptions& options, const BlobRange blobs, const LeafRange leaves, FmmPlan& plan) {
   if (options.far_field == FarField::regularized && blobs.smallest != blobs.largest)
     throw Error(
         ExitCode::scene_error,
         fmt::format("far_field = \"regularized\" needs one blob for all nodes, not {:g} .. {:g}: use \"harmonic\"",
                     blobs.smallest, blobs.largest));
+  if (plan.tail_degree > 0 && options.tail_degree == 0 && leaves.smallest >= 0.999 * plan.plain_half_width) {
+    plan.blob_error *= blob_floor(options, 0, blobs.largest / plan.plain_half_width) /
+                       blob_floor(options, plan.tail_degree, blobs.largest / plan.min_half_width);
+    plan.min_half_width = plan.plain_half_width;
+    plan.tail_degree = 0;
+  }
   if (options.precision == Precision::automatic)
-    plan.near_in_single &= single_precision_error(blobs.smallest, largest_leaf) < options.tolerance;
+    plan.near_in_single &= single_precision_error(blobs.smallest, leaves.largest) < options.tolerance;
 }
 
 }  // namespace skein

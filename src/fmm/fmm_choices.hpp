@@ -31,9 +31,14 @@ class LapTimer {
 
 OctreeRules make_octree_rules(const FmmOptions& options, const FmmPlan& plan);
 
-/// What the plan leaves to the tree.
+/// Half-widths in a tree, length.
+struct LeafRange {
+  double smallest, largest;
+};
+
+/// What the plan leaves to the tree: where no leaf is so small that the blobs' term of eps^4 matters, it is left out.
 /// @throws Error(scene_error) where the far field needs one blob and there are several
-void settle_plan(const FmmOptions& options, BlobRange blobs, double largest_leaf, FmmPlan& plan);
+void settle_plan(const FmmOptions& options, BlobRange blobs, LeafRange leaves, FmmPlan& plan);
 
 /// use(field) with the far field of the options. @param blob  of all sources, where the far field depends on it
 template <class Use>

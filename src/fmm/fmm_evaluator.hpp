@@ -6,6 +6,7 @@
 #include "fmm/fmm_choices.hpp"
 #include "fmm/operator_store.hpp"
 #include "fmm/rank_exchange.hpp"
+#include "fmm/tail_operators.hpp"
 #include "fmm/tree_fit.hpp"
 #include "fmm/tree_tasks.hpp"
 
@@ -40,6 +41,9 @@ class FmmEvaluator final : public FmmSum {
     OperatorStore<Real> store;
     OperatorCopies<Space, Real> operators;
     Coefficients<Space, Real> coefficients;
+    TailOperators<Real> tail_store;
+    OperatorCopies<Space, Real> tail_operators;
+    Coefficients<Space, Real> tail_coefficients;
   };
 
   void require_tree(const OctreeRules& rules, bool may_keep);
@@ -51,6 +55,9 @@ class FmmEvaluator final : public FmmSum {
   template <class Real, class Field>
   void pass(const FmmPlan& plan, const Field& field, const Levels<Space, Real>& levels,
             Coefficients<Space, Real>& coefficients);
+  /// The term of eps^4, which the harmonic field has not: passes of its own without a near field.
+  template <class Real>
+  void add_tail(const FmmPlan& plan, InPrecision<Real>& in);
   void count_work();
   double lap(LapTimer& watch) const {
     space_.fence();
@@ -96,7 +103,7 @@ bool FmmEvaluator<Workers>::compute(const FmmOptions& options, const FmmPlan& ch
       Workers::meets_pairs_once && are_same_nodes(nodes_.position, nodes_.target) && blobs_.smallest == blobs_.largest;
   require_tree(make_octree_rules(options, plan), is_symmetric == is_symmetric_);
   is_symmetric_ = is_symmetric;
-  settle_plan(options, blobs_, tree_.largest_leaf, plan);
+  settle_plan(options, blobs_, {tree_.half_width(tree_.n_levels() - 1), tree_.largest_leaf}, plan);
   statistics.plan = plan;
   statistics.tree_seconds = lap(watch);
   if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_, options) > 1.0)
@@ -176,15 +183,18 @@ void FmmEvaluator<Workers>::add_in(const FmmOptions& options, const FmmPlan& pla
   const auto& levels =
       in.operators.require(in.store.require(options.far_field, plan, blobs_.largest, tree_), tree_.transfers_met());
   statistics.operators_seconds = watch.lap();
+  statistics.far_seconds = statistics.leaf_seconds = 0.0;
   with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, in.coefficients); });
-  double node_bytes = sorted_.bytes(), coefficient_bytes = in.coefficients.bytes();
+  if (plan.tail_degree > 0) add_tail(plan, in);
+  double node_bytes = sorted_.bytes(), coefficient_bytes = in.coefficients.bytes() + in.tail_coefficients.bytes();
   if (ranks_ != nullptr) {
     const RankShares& shares = exchange_.shares();
     node_bytes = 56.0 * shares.n_looked_at() + (tree_.same_nodes ? 0.0 : 24.0 * shares.own_targets().count);
-    coefficient_bytes = sizeof(Real) * shares.n_boxes * in.coefficients.box_size;
+    coefficient_bytes = sizeof(Real) * shares.n_boxes * (in.coefficients.box_size + in.tail_coefficients.box_size);
   }
-  statistics.memory_bytes = in.store.bytes() + in.operators.bytes() + coefficient_bytes + node_bytes +
-                            workers_.bytes() + parts_.bytes() + tree_.bytes();
+  statistics.memory_bytes = in.store.bytes() + in.operators.bytes() + in.tail_store.bytes() +
+                            in.tail_operators.bytes() + coefficient_bytes + node_bytes + workers_.bytes() +
+                            parts_.bytes() + tree_.bytes();
 }
 
 template <class Workers>
@@ -203,10 +213,20 @@ void FmmEvaluator<Workers>::pass(const FmmPlan& plan, const Field& field, const 
     if (ranks_ != nullptr) boxes_.exchange = [&] { exchange_.exchange_coefficients(coefficients); };
   }
   compute_coefficients(workers_, passes, boxes_);
-  statistics.far_seconds = lap(watch);
+  statistics.far_seconds += lap(watch);
   with_near_precision<Real>(
       plan, [&](auto near) { workers_.template sum_leaves<decltype(near)>(passes, parts_, own_velocity_); });
-  statistics.leaf_seconds = lap(watch);
+  statistics.leaf_seconds += lap(watch);
+}
+
+template <class Workers>
+template <class Real>
+void FmmEvaluator<Workers>::add_tail(const FmmPlan& plan, InPrecision<Real>& in) {
+  LapTimer watch;
+  const auto sets = in.tail_store.require(plan.tail_degree, tree_.n_levels(), tree_.transfers_met());
+  const auto& levels = in.tail_operators.require(sets, tree_.transfers_met());
+  statistics.operators_seconds += watch.lap();
+  pass<Real>(plan, TailField{plan.tail_degree}, levels, in.tail_coefficients);
 }
 
 template <class Workers>

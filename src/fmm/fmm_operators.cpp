@@ -1,5 +1,7 @@
 #include "fmm_operators.hpp"
 
+#include "fmm/padded_copies.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <utility>
@@ -10,31 +12,6 @@ namespace {
 using Eigen::MatrixXd;
 
 using OneByOne = Kokkos::RangePolicy<HostSpace, Kokkos::Schedule<Kokkos::Dynamic>>;
-
-template <class Real>
-PaddedMatrix<Real> make_padded(const int n_rows, const int n_columns) {
-  PaddedMatrix<Real> result;
-  result.n_rows = padded<Real>(n_rows);
-  result.n_columns = n_columns;
-  result.entry = Kokkos::View<Real*, HostSpace>(
-      "skein::FmmOperators::entry", static_cast<std::size_t>(result.n_rows) * static_cast<std::size_t>(n_columns));
-  return result;
-}
-
-template <class Real>
-void fill(const PaddedMatrix<Real>& result, const MatrixXd& matrix) {
-  for (int j = 0; j < result.n_columns; ++j)
-    for (int i = 0; i < matrix.rows(); ++i)
-      result.entry(static_cast<std::size_t>(j) * static_cast<std::size_t>(result.n_rows) +
-                   static_cast<std::size_t>(i)) = static_cast<Real>(matrix(i, j));
-}
-
-template <class Real>
-PaddedMatrix<Real> to_padded(const MatrixXd& matrix) {
-  const auto result = make_padded<Real>(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()));
-  fill(result, matrix);
-  return result;
-}
 
 }  // namespace
 
@@ -51,8 +28,8 @@ FmmOperators<Real>::FmmOperators(const FarField far_field, const int order, cons
   decompose(cutoff);
   set_.to_source = with_plane_columns(algebra_.outer().transpose());
   set_.to_target = with_plane_columns(algebra_.inner().transpose());
-  set_.source_density = with_plane_rows(algebra_.inner());
-  set_.target_density = with_plane_rows(algebra_.outer());
+  set_.source_density = to_padded_planes<Real>(algebra_.inner(), set_.n_surface, set_.n_padded);
+  set_.target_density = to_padded_planes<Real>(algebra_.outer(), set_.n_surface, set_.n_padded);
 }
 
 template <class Real>
@@ -71,14 +48,6 @@ void FmmOperators<Real>::decompose(const double cutoff) {
       const auto parity = static_cast<unsigned>(parity_of[static_cast<std::size_t>(place)]);
       set_.sign(place, reflected) = std::popcount(parity & reflected) % 2 == 0 ? Real(1) : Real(-1);
     }
-}
-
-template <class Real>
-PaddedMatrix<Real> FmmOperators<Real>::with_plane_rows(const MatrixXd& matrix) const {
-  MatrixXd spread = MatrixXd::Zero(algebra_.n_components() * set_.n_padded, matrix.cols());
-  for (int c = 0; c < algebra_.n_components(); ++c)
-    spread.middleRows(c * set_.n_padded, set_.n_surface) = matrix.middleRows(c * set_.n_surface, set_.n_surface);
-  return to_padded<Real>(spread);
 }
 
 template <class Real>

@@ -29,8 +29,7 @@ class FmmOperators {
 
  private:
   void decompose(double cutoff);
-  /// Columns or rows of planes at stride n_padded.
-  PaddedMatrix<Real> with_plane_rows(const Eigen::MatrixXd& matrix) const;
+  /// Columns of planes at stride n_padded.
   PaddedMatrix<Real> with_plane_columns(const Eigen::MatrixXd& matrix) const;
 
   SurfaceOperators algebra_;

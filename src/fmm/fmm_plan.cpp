@@ -3,6 +3,8 @@
 #include <skein/fmm/fmm_plan.hpp>
 #include <skein/fmm/machine_rates.hpp>
 
+#include "blob_floor.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,20 +54,6 @@ constexpr double apart_excess = 8.0;
 
 double excess_of(const FmmTargets targets) { return targets == FmmTargets::apart ? apart_excess : 1.0; }
 
-/// Error between the nearest well-separated boxes over (eps / half-width)^4.
-double floor_factor(const FmmOptions& options) {
-  constexpr double with_doublet = 0.011;
-  switch (options.far_field) {
-    case FarField::harmonic:
-      return with_doublet;
-    case FarField::stokeslet:
-      return options.stokes_part_only ? with_doublet : 0.1;
-    case FarField::regularized:
-      return 0.05;
-  }
-  throw Error(ExitCode::internal, "floor_factor knows no such far field");
-}
-
 /// What single precision adds, and the smallest singular values it can tell from noise.
 constexpr double single_error = 9e-7, single_cutoff = 1e-8;
 
@@ -95,7 +83,7 @@ double blob_share(const FmmOptions& options) {
 }
 
 /// Of an order's error, that the transfers may lose by being taken apart.
-constexpr double transfer_share = 0.01;
+constexpr double transfer_share = 0.1;
 
 /// As plans are described.
 const char* name_of(const FarField far_field) {
@@ -121,10 +109,9 @@ double least_error(const FmmOptions& options) {
 }  // namespace
 
 double smallest_half_width(const FmmOptions& options, const double max_blob) {
-  return max_blob * std::pow(floor_factor(options) / (blob_share(options) * options.tolerance), 0.25);
+  const double allowed = blob_share(options) * options.tolerance;
+  return max_blob / largest_blob_ratio(options, choose_tail_degree(options, allowed), allowed);
 }
-
-double harmonic_floor(const double blob, const double half_width) { return 0.011 * std::pow(blob / half_width, 4); }
 
 double single_precision_error(const double min_blob, const double half_width) {
   return 2e-7 + 2e-8 * half_width / min_blob;
@@ -148,6 +135,10 @@ std::vector<OptionProblem> find_fmm_problems(const FmmOptions& options) {
         {"order", fmt::format("order = {}: must be between {} and {} with this far field, or 0 to leave it "
                               "to the tolerance",
                               options.order, rows.front().order, rows.back().order)});
+  if (!is_tail_degree(options.tail_degree))
+    problems.push_back({"tail_degree", fmt::format("tail_degree = {}: must be between 1 and 8, 0 to leave it to the "
+                                                   "tolerance, or {} for none",
+                                                   options.tail_degree, FmmOptions::no_tail)});
   if (has_tolerance && needs_direct_sum(options))
     problems.push_back(
         {"tolerance",
@@ -170,6 +161,37 @@ void check_fmm_options(const FmmOptions& options) {
   const auto problems = find_fmm_problems(options);
   if (!problems.empty()) throw Error(ExitCode::scene_error, problems.front().message);
 }
+
+namespace {
+
+/// How small leaves may be for the blobs, and what it takes.
+void set_half_widths(const FmmOptions& options, const double max_blob, const int n_raises, FmmPlan& plan) {
+  if (!(max_blob > 0.0)) {
+    plan.min_half_width = options.min_half_width;
+    return;
+  }
+  const double allowed = blob_share(options) * options.tolerance;
+  const double needed = smallest_half_width(options, max_blob);
+  const double plain = max_blob / largest_blob_ratio(options, 0, allowed);
+  plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
+  if (plan.min_half_width < plain || options.tail_degree > 0) {
+    plan.tail_degree = choose_tail_degree(options, allowed);
+    plan.plain_half_width = options.tail_degree > 0 ? 0.0 : plain;
+  }
+  if (plan.min_half_width < 0.999 * needed)
+    throw Error(
+        ExitCode::scene_error,
+        fmt::format("min_half_width = {:g}: leaves this small miss tolerance = {:g} with blobs of {:g} (error floor "
+                    "{:g}): use {:.4g} or more, or 0",
+                    options.min_half_width, options.tolerance, max_blob,
+                    blob_floor(options, plan.tail_degree, max_blob / options.min_half_width), needed));
+  // Blobs may have been the cause as well as the order: a quarter of their error with each raise.
+  plan.min_half_width *= std::exp2(0.5 * n_raises);
+  plan.plain_half_width *= std::exp2(0.5 * n_raises);
+  plan.blob_error = blob_floor(options, plan.tail_degree, max_blob / plan.min_half_width);
+}
+
+}  // namespace
 
 FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const int raised_order,
                         const FmmTargets targets) {
@@ -199,19 +221,8 @@ FmmPlan choose_fmm_plan(const FmmOptions& wanted, const double max_blob, const i
                                          : math::larger(row->leaf_size, machine_rates(options.path).least_leaf_size);
   plan.expected_error = excess_of(targets) * (plan.far_in_single ? std::max(row->error, single_error) : row->error);
 
-  const double needed = smallest_half_width(options, max_blob);
-  plan.min_half_width = options.min_half_width > 0.0 ? options.min_half_width : needed;
-  if (plan.min_half_width < 0.999 * needed)
-    throw Error(
-        ExitCode::scene_error,
-        fmt::format("min_half_width = {:g}: leaves this small miss tolerance = {:g} with blobs of {:g} (error floor "
-                    "{:g}): use {:.4g} or more, or 0",
-                    options.min_half_width, options.tolerance, max_blob,
-                    floor_factor(options) * std::pow(max_blob / options.min_half_width, 4), needed));
-  // Blobs may have been the cause as well as the order: a quarter of their error with each raise.
-  plan.min_half_width *= std::exp2(0.5 * n_raises);
-  if (plan.min_half_width > 0.0)
-    plan.blob_error = excess_of(targets) * floor_factor(options) * std::pow(max_blob / plan.min_half_width, 4);
+  set_half_widths(options, max_blob, n_raises, plan);
+  plan.blob_error *= excess_of(targets);
   return plan;
 }
 
@@ -221,6 +232,7 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
                   name_of(options.far_field), plan.order, plan.far_in_single ? "single" : "double", plan.leaf_size);
   if (plan.min_half_width > 0.0)
     text += fmt::format(" of half-width {:.3g} or more (for the blobs)", plan.min_half_width);
+  if (plan.tail_degree > 0) text += fmt::format(", tails of the blobs by polynomials of degree {}", plan.tail_degree);
   text += fmt::format(", error of at most {:.1g} expected", plan.expected_error);
   if (plan.blob_error > 0.0) text += fmt::format(" by the order and {:.1g} by the blobs", plan.blob_error);
   return text + fmt::format(", {:g} allowed", options.tolerance);
@@ -232,10 +244,14 @@ double estimate_nanoseconds(const FmmWork& work, const FmmPlan& plan, const bool
   const double n_surface = 6.0 * (plan.order - 1) * (plan.order - 1) + 2.0;
   const double rank = plan.rank;
   const double n_nodes = work.n_sources + work.n_targets;
-  return near_pair * work.near_pairs + rates.surface_pair.of(plan.far_in_single) * n_surface * n_nodes +
+  // Of the tail a node costs about a surface point for each polynomial, and transfers hardly anything.
+  const double degree = plan.tail_degree;
+  const double n_polynomials = plan.tail_degree > 0 ? (degree + 1.0) * (degree + 2.0) * (degree + 3.0) / 6.0 : 0.0;
+  return near_pair * work.near_pairs +
+         rates.surface_pair.of(plan.far_in_single) * (n_surface + n_polynomials) * n_nodes +
          8.0 * rates.product.of(plan.far_in_single) *
              (rank * rank * (rates.transfer_work * work.far_pairs + 2.0 * work.n_boxes) +
-              2.0 * rank * n_surface * work.n_boxes) +
+              (2.0 * rank * n_surface + 4.5 * n_polynomials * n_polynomials) * work.n_boxes) +
          rates.node * n_nodes;
 }
 

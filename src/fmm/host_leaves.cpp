@@ -119,6 +119,18 @@ struct HostPart {
       add_to_targets<1>(field, operators, size, at, first, 1.0 / half_width);
   }
 
+  void add_polynomials(const Real* coefficients, const Box& box) {
+    const double half_width = passes.cube.half_width(box.level);
+    LeafTargets<Real> at;
+    at.load(passes.nodes.target, targets, passes.cube.center(box), half_width);
+    for (int first = 0; first < at.n_padded(); first += simd::width<Real>) {
+      Pack<Real> x[3], u[3] = {};
+      for (int c = 0; c < 3; ++c) x[c] = simd::load_pack(&at.x[c][first]);
+      add_tail_velocity<Real>(passes.field.degree, coefficients, x, u);
+      add_lanes<Real>(u, first, 1.0 / half_width, sum);
+    }
+  }
+
  private:
   template <int packs>
   void add_to_targets(const Field& field, const LevelOperators<Real>& operators, const Real size,
@@ -159,12 +171,16 @@ void sum_leaf_velocities(const Passes<HostSpace, Real, Field>& passes, const Nea
     const Box& box = passes.boxes(passes.target_leaves(leaf));
     const IndexRange part{box.targets.first + before, math::smaller(host_part_targets, box.targets.count - before)};
     LeafSum sum = {};
-    add_near<Near>(near, passes.nodes, leaf, box, part, passes.cube.center(box), sum);
+    if constexpr (!std::is_same_v<Field, TailField>)  // which comes after all else
+      add_near<Near>(near, passes.nodes, leaf, box, part, passes.cube.center(box), sum);
     HostScratch<Real> density(math::larger(1, Field::n_planes * passes.levels.n_padded));
     HostPart<Real, Field> targets{passes, part, density, sum};
     add_expansions(targets, passes, leaf);
     for (int c = 0; c < 3; ++c)
-      for (int i = 0; i < part.count; ++i) velocity(passes.target_order(part.first + i), c) = sum.velocity[c][i];
+      for (int i = 0; i < part.count; ++i) {
+        double& to = velocity(passes.target_order(part.first + i), c);
+        to = (std::is_same_v<Field, TailField> ? to : 0.0) + sum.velocity[c][i];
+      }
   });
 }
 
@@ -176,6 +192,8 @@ void sum_leaf_velocities(const Passes<HostSpace, Real, Field>& passes, const Nea
   SKEIN_INSTANTIATE(double, float, Field)  \
   SKEIN_INSTANTIATE(float, float, Field)
 SKEIN_INSTANTIATE_FIELD(HarmonicField)
+SKEIN_INSTANTIATE(double, double, TailField)
+SKEIN_INSTANTIATE(double, float, TailField)
 SKEIN_INSTANTIATE_FIELD(StokesletField)
 SKEIN_INSTANTIATE_FIELD(RegularizedField)
 

@@ -21,7 +21,8 @@ struct NearField {
   std::span<const IndexRange> of_leaf(const int leaf) const { return {runs + first[leaf], runs + end[leaf]}; }
 };
 
-/// velocity(original index) = near field + far field of the coefficients, leaf by leaf.
+/// velocity(original index) = near field + far field of the coefficients, leaf by leaf; the tail of the blobs is added
+/// to what is there.
 template <class Near, class Real, class Field>
 void sum_leaf_velocities(const Passes<HostSpace, Real, Field>& passes, const NearField& near,
                          const LeafParts<HostSpace>& parts, const HostVectors& velocity);

@@ -2,6 +2,7 @@
 
 #include "fmm/fmm_evaluator.hpp"
 #include "fmm/fmm_paths.hpp"
+#include "fmm/tail_packs.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fmm/blob_tail.hpp"
 #include "fmm/host_leaves.hpp"
 #include "fmm/host_workers.hpp"
 #include "fmm/near_tiles.hpp"
@@ -35,6 +36,8 @@ class HostWorkers {
   template <class Near, class Real, class Field>
   void sum_leaves(const Passes<Space, Real, Field>& passes, const LeafParts<Space>& parts,
                   const HostVectors& velocity) {
+    if constexpr (std::is_same_v<Field, TailField>)  // has no near field
+      return sum_leaf_velocities<double>(passes, NearField{}, parts, velocity);
     sum_leaf_velocities<Near>(passes, compute_near<Near>(passes.nodes, passes.u_list, passes.near_end), parts,
                               velocity);
   }

@@ -11,6 +11,7 @@ constexpr int n_sampled = 4096;
 struct CellChoice {
   double side;
   int nodes_per_cell;
+  double dimension;  ///< 1 for a line, 3 for a cloud
 };
 
 /// Side of the cells that would hold the aimed number of nodes each on average, from a sample: the mean number of nodes
@@ -33,15 +34,37 @@ CellChoice choose_cell(const int n, const double (&corner)[3], const double side
     const double needed = static_cast<double>(n) / aimed / cells;  // more cells than there are here, a factor
     if (is_thin || finer / cells >= needed) {
       const double coarse = side / static_cast<double>(1 << (level - 1));
-      return {needed <= 1.0 ? coarse : coarse * std::exp2(-std::log2(needed) / slope), static_cast<int>(aimed)};
+      return {needed <= 1.0 ? coarse : coarse * std::exp2(-std::log2(needed) / slope), static_cast<int>(aimed), slope};
     }
     cells = finer;
   }
-  return {side / static_cast<double>(1 << max_key_depth), leaf_size};
+  return {side / static_cast<double>(1 << max_key_depth), leaf_size, 1.0};
 }
 
 /// Sides change in steps of a quarter octave, so that operators that depend on them can be kept while nodes move.
 double quantized(const double side) { return std::exp2(0.25 * std::floor(4.0 * std::log2(side))); }
+
+/// The least side of cells that is worth its cost: the easy one, or a smaller one where near pairs would cost more than
+/// all that small leaves take. @param smallest  side of a cell that may be, length
+double find_worthy_side(const CellChoice& choice, const double smallest, const OctreeRules& rules) {
+  constexpr double gain = 0.95;  // that small leaves must have, because estimates are rough
+  const double easy = std::max(smallest, 2.0 * rules.easy_half_width), s = choice.dimension;
+  const double n_touching = std::pow(3.0, s), n_far = std::pow(6.0, s) - n_touching,
+               n_boxes = 1.0 / (1.0 - std::exp2(-s));
+  const auto cost = [&](const double side) {  // of a node
+    const double n_nodes = choice.nodes_per_cell * std::pow(side / choice.side, s);
+    return rules.costs.near_pair * n_touching * n_nodes +
+           (rules.costs.far_pair * n_far + rules.costs.box) * n_boxes / n_nodes;
+  };
+  double best = easy, least = gain * cost(easy);
+  for (double side = std::max(smallest, choice.side); side < easy; side *= std::exp2(0.25)) {
+    const double here = cost(side) + rules.costs.small_leaf_node;
+    if (here >= least) continue;
+    best = side;
+    least = here;
+  }
+  return best;
+}
 
 }  // namespace
 
@@ -62,18 +85,25 @@ OctreeCube choose_octree_cube(NodeBounds bounds, const int n_nodes, const Octree
   if (!std::isfinite(extent)) extent = 1.0;
   // A cell smaller than the spacing of the numbers themselves is no cell.
   extent = std::max({extent, 1e-10 * reach, 1e-300}) * (1.0 + 1e-6);
-  const double smallest = std::max(2.0 * rules.min_half_width, 1e-13 * reach);
+  double smallest = std::max(2.0 * rules.min_half_width, 1e-13 * reach);
 
   for (int c = 0; c < 3; ++c) cube.corner[c] = bounds.low[c];
   double cell = extent;
   cube.nodes_per_cell = rules.leaf_size;
-  if (n_nodes > rules.leaf_size) {
+  if (n_nodes <= rules.leaf_size) {
+    smallest = std::max(smallest, 2.0 * rules.easy_half_width);
+  } else {
     const CellChoice choice = choose_cell(n_nodes, cube.corner, extent, rules.leaf_size, sample);
+    double worthy = smallest;
+    if (rules.easy_half_width > 0.0) {
+      worthy = find_worthy_side(choice, smallest, rules);
+      if (worthy >= 2.0 * rules.easy_half_width) smallest = worthy;
+    }
     if (rules.has_quantized_cells) {
       cell = std::min(extent, std::max(smallest, quantized(choice.side)));
     } else {
       // A whole number of cells along the longest side: none at the rim is nearly empty.
-      const double n_cells = std::min(std::round(extent / choice.side), std::floor(extent / smallest));
+      const double n_cells = std::min(std::round(extent / choice.side), std::floor(extent / worthy));
       cell = extent / std::max(1.0, n_cells);
     }
     cube.nodes_per_cell = choice.nodes_per_cell;

@@ -7,10 +7,21 @@
 
 namespace skein {
 
+/// What leaves of one size cost and leaves of another, ns; see estimate_nanoseconds.
+struct LeafCosts {
+  double near_pair = 0.0;  ///< of nodes
+  double far_pair = 0.0, box = 0.0;
+  double small_leaf_node = 0.0;  ///< more for a node than in leaves of the easy size
+
+  bool operator==(const LeafCosts&) const = default;
+};
+
 /// What shapes a tree.
 struct OctreeRules {
   int leaf_size = 64;                 ///< nodes per leaf to aim at, >= 1; in clouds up to twice as many
   double min_half_width = 0.0;        ///< no leaf is smaller, length
+  double easy_half_width = 0.0;       ///< smaller leaves cost more by themselves: only where that pays. 0: none do
+  LeafCosts costs;                    ///< by which that is decided
   bool has_quantized_cells = false;   ///< sides in steps, for operators that depend on them and are to be kept
   int min_sources_for_expansion = 0;  ///< fewer sources (or targets) than this are summed directly across W and X lists
 

@@ -129,6 +129,24 @@ struct TeamPart {
             to_units * Vec3{static_cast<double>(u[k][0]), static_cast<double>(u[k][1]), static_cast<double>(u[k][2])});
     }
   }
+
+  /// Of those that share targets the first ones work.
+  KOKKOS_INLINE_FUNCTION void add_polynomials(const Real* coefficients, const Box& box) {
+    const double to_units = 1.0 / passes.cube.half_width(box.level);
+    const Vec3 center = passes.cube.center(box);
+    for (int slot = worker.rank(); slot < shape.n_slots; slot += worker.size()) {
+      if (slot >= shape.targets.count) continue;
+      for (int k = 0; k < shape.n_held; ++k) {
+        const Vec3 from_center = to_units * (load(passes.nodes.target, shape.target(slot, k)) - center);
+        const Real x[3] = {static_cast<Real>(from_center.x), static_cast<Real>(from_center.y),
+                           static_cast<Real>(from_center.z)};
+        Real u[3] = {};
+        add_tail_velocity<Real>(passes.field.degree, coefficients, x, u);
+        shape.add(sum, slot, k,
+                  to_units * Vec3{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])});
+      }
+    }
+  }
 };
 
 /// Everything that ends at some targets of a leaf: a part of one to a team.
@@ -152,14 +170,16 @@ struct SumLeafParts {
     fill_zeros(worker, sum.data(), Shape::n_sums);
     worker.barrier();  // sums are zero
     const IndexRange* const runs = passes.u_list.entries.data();
-    team_add_near<Near>(team, passes.nodes, runs + passes.u_list.first(leaf), runs + passes.near_end(leaf), shape,
-                        passes.cube.center(box), tile.data(), sum.data());
+    if constexpr (!std::is_same_v<Field, TailField>)  // which comes after all else
+      team_add_near<Near>(team, passes.nodes, runs + passes.u_list.first(leaf), runs + passes.near_end(leaf), shape,
+                          passes.cube.center(box), tile.data(), sum.data());
     TeamPart<Near, Space, Real, Field> part{worker, passes, shape, density.data(), sum.data()};
     add_expansions(part, passes, leaf);
     worker.barrier();  // sums are complete
     for (int t = worker.rank(); t < shape.targets.count; t += worker.size()) {
       const int i = passes.target_order(shape.targets.first + t);
-      for (int c = 0; c < 3; ++c) velocity(i, c) = shape.total(sum.data(), t, c);
+      for (int c = 0; c < 3; ++c)
+        velocity(i, c) = (std::is_same_v<Field, TailField> ? velocity(i, c) : 0.0) + shape.total(sum.data(), t, c);
     }
   }
 };
@@ -191,6 +211,7 @@ void sum_leaf_velocities_by_teams(const Space& space, const Passes<Space, Real, 
   SKEIN_INSTANTIATE_FOR(S, float, float, Field)
 #define SKEIN_INSTANTIATE(S)                 \
   SKEIN_INSTANTIATE_FIELD(S, HarmonicField)  \
+  SKEIN_INSTANTIATE_FIELD(S, TailField)      \
   SKEIN_INSTANTIATE_FIELD(S, StokesletField) \
   SKEIN_INSTANTIATE_FIELD(S, RegularizedField)
 SKEIN_INSTANTIATE(ExecSpace)

@@ -10,7 +10,8 @@ namespace skein {
 
 inline constexpr int team_part_targets = 128;  ///< of a leaf, that a team takes at once
 
-/// velocity(original index) = near field + far field of the coefficients, a team for every part of a leaf.
+/// velocity(original index) = near field + far field of the coefficients, a team for every part of a leaf; the tail of
+/// the blobs is added to what is there.
 template <class Space, class Near, class Real, class Field>
 void sum_leaf_velocities_by_teams(const Space& space, const Passes<Space, Real, Field>& passes,
                                   const LeafParts<Space>& parts, const VectorView<Space>& velocity, int team_size);

@@ -51,6 +51,27 @@ void print_hashes(const KernelPath path, const std::vector<reference::Cloud>& cl
         }
 }
 
+/// The same with the blobs' term of eps^4 between boxes, which moments carry.
+void print_tail_hashes(const KernelPath path, const reference::Cloud cloud, const int n) {
+  for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+    reference::Random random(5);
+    const Vectors position = to_device("position", reference::make_cloud(cloud, n, {0.3, 0.1, 2.0}, 1.0, random));
+    const Sources sources{position, to_device("force", reference::make_random_vectors(n, 1.3, random)),
+                          to_device("blob", reference::make_random_lengths(n, 1e-3, 1e-2, random))};
+    FmmOptions options;
+    options.path = path;
+    options.precision = precision;
+    options.tolerance = 1e-3;
+    options.leaf_size = 25;
+    options.tail_degree = 4;
+    FmmMobility fmm(1.7, options);
+    const Vectors velocity("velocity", n);
+    fmm.add_velocity(sources, position, velocity);
+    std::printf("tail %s %d %d %016llx\n", reference::name_of(cloud).c_str(), n, static_cast<int>(precision),
+                static_cast<unsigned long long>(hash_of(to_host(velocity))));
+  }
+}
+
 }  // namespace
 }  // namespace skein
 
@@ -60,4 +81,8 @@ int main() {
   using skein::reference::Cloud;
   skein::print_hashes(skein::KernelPath::host, {Cloud::cube, Cloud::tube, Cloud::line, Cloud::cluster}, 20000);
   skein::print_hashes(skein::KernelPath::device, {Cloud::tube, Cloud::cluster}, 3000);
+  for (const Cloud cloud : {Cloud::cube, Cloud::cluster}) {
+    skein::print_tail_hashes(skein::KernelPath::host, cloud, 8000);
+    skein::print_tail_hashes(skein::KernelPath::device, cloud, 2000);
+  }
 }

@@ -25,8 +25,12 @@ struct FmmOptions {
   Precision precision = Precision::automatic;
   bool direct_when_cheaper = false;  ///< sum directly where the lists show that this costs less
   bool stokes_part_only = false;     ///< stokeslet: feed the far field S_0 + (eps^2 / 4) Laplacian S_0 instead of S_eps
-  double singular_cutoff = 0.0;      ///< of the surface operators, relative; a raised order has its own
-  int check_every = 0;               ///< evaluations between checks against direct sums; 0: no checks
+  /// Harmonic field: degree of the polynomials that carry the blobs' term of eps^4 between boxes, 1 .. 8; 0 leaves it
+  /// to the tolerance and the tree, no_tail leaves the term out.
+  int tail_degree = 0;
+  static constexpr int no_tail = -1;
+  double singular_cutoff = 0.0;  ///< of the surface operators, relative; a raised order has its own
+  int check_every = 0;           ///< evaluations between checks against direct sums; 0: no checks
   int n_checked_targets = 64;
   FmmTargets other_targets = FmmTargets::apart;  ///< where targets lie that are not the sources' own array
   OnMiss on_miss = OnMiss::raise_order;
@@ -43,8 +47,10 @@ struct FmmPlan {
   double min_half_width = 0.0;      ///< length
   bool near_in_single = false;      ///< allowed; see single_precision_error
   bool far_in_single = false;
-  double expected_error = 0.0;  ///< by the order: bound from the table, for any arrangement of nodes
-  double blob_error = 0.0;      ///< in the smallest leaves, by the floor law
+  double expected_error = 0.0;    ///< by the order: bound from the table, for any arrangement of nodes
+  int tail_degree = 0;            ///< of the polynomials that carry the blobs' term of eps^4; 0: it is left out
+  double plain_half_width = 0.0;  ///< from which leaves do not need them, length
+  double blob_error = 0.0;        ///< in the smallest leaves, by the floor law
 };
 
 /// What is wrong with one option, in words that begin with its name and value.
@@ -77,8 +83,8 @@ double smallest_half_width(const FmmOptions& options, double max_blob);
 bool needs_direct_sum(const FmmOptions& options, FmmTargets targets = FmmTargets::at_sources);
 
 /// Error between the nearest well-separated boxes that blobs cause in the harmonic far field: 0.011 (eps /
-/// half-width)^4.
-double harmonic_floor(double blob, double half_width);
+/// half-width)^4, or with the term of eps^4 to polynomials of a degree, what these miss and 0.002 (eps / half-width)^6.
+double harmonic_floor(double blob, double half_width, int tail_degree = 0);
 
 /// Bound of what single precision costs in the near field of leaves of this size.
 double single_precision_error(double min_blob, double half_width);
