@@ -53,7 +53,7 @@ SKEIN_INLINE_FUNCTION constexpr int n_tail_polynomials(const int degree) {
 /// P_0 .. P_most of Legendre at x, by their recurrence.
 template <class Real, class Lanes>
 SKEIN_FORMULA void find_legendre(const Lanes x, Lanes (&value)[most_tail_degree + 1]) {
-  value[0] = Lanes{} + Real(1);
+  value[0] = Real(1) + (x - x);  // no constant of packs, which the device's compiler refuses
   value[1] = x;
   SKEIN_UNROLL
   for (int n = 1; n < most_tail_degree; ++n)
@@ -71,8 +71,10 @@ SKEIN_FORMULA void add_tail_velocity(const int degree, const Real* coefficient, 
   for (int i = 0; i <= degree; ++i)
     for (int j = 0; i + j <= degree; ++j) {
       const Lanes across = along[0][i] * along[1][j];
-      Lanes sum[3] = {};
-      for (int k = 0; i + j + k <= degree; ++k, ++place)
+      Lanes sum[3];
+      for (int c = 0; c < 3; ++c) sum[c] = coefficient[c * n + place] * along[2][0];
+      ++place;
+      for (int k = 1; i + j + k <= degree; ++k, ++place)
         for (int c = 0; c < 3; ++c) sum[c] += coefficient[c * n + place] * along[2][k];
       for (int c = 0; c < 3; ++c) u[c] += across * sum[c];
     }
