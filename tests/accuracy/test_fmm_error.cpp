@@ -232,7 +232,7 @@ TEST(FmmError, NeverMissesApartFromTheSources) {
       from.position =
           reference::make_cloud(reference::all_clouds[k % 4], 260, random.in_cube(3.0 * size), size, random);
       from.force = reference::make_random_vectors(260, 2.0, random);
-      from.blob = reference::make_random_lengths(260, 0.003 * cell, 0.3 * cell, random);
+      from.blob = reference::make_random_lengths(260, 0.001 * cell, 0.1 * cell, random);
       const Vec3 beside = from.position.front() + random.in_cube(size);
       const Vectors target = to_device("target", reference::make_cloud(Cloud::cube, 150, beside, 2.0 * size, random));
       const Sources sources = on_device(from);
