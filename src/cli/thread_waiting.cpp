@@ -45,7 +45,7 @@ std::vector<std::string> read_own_words() {
 void limit_thread_spinning([[maybe_unused]] char** argv) {
 #ifdef SKEIN_RESTARTS_FOR_OPENMP
   if (std::getenv("GOMP_SPINCOUNT") != nullptr || std::getenv("OMP_WAIT_POLICY") != nullptr) return;
-  if (setenv("GOMP_SPINCOUNT", "1000", 0) != 0) return;
+  if (setenv("GOMP_SPINCOUNT", "10000", 0) != 0) return;
   leave_own_place();
   execv("/proc/self/exe", argv);  // returns only where it is not possible; then the run is merely slower
 #endif
