@@ -48,7 +48,7 @@ template <class Space, class Real, class Field>
 struct SourcesToLeaves {
   Passes<Space, Real, Field> passes;
 
-  int n_values() const { return Field::n_planes * passes.levels.n_padded; }
+  SKEIN_FORMULA int n_values() const { return Field::n_planes * passes.levels.n_padded; }
   template <class Workers>
   std::size_t scratch_bytes() const {
     return Workers::template array_bytes<Real>(n_values()) +
@@ -56,7 +56,7 @@ struct SourcesToLeaves {
   }
   template <class Worker>
   SKEIN_FORMULA void operator()(const Worker& worker, const IndexRange boxes) const {
-    const int n = Field::n_planes * passes.levels.n_padded;
+    const int n = n_values();
     const auto potential = worker.template array<Real>(n);
     const auto tile = worker.template array<FarSource<Real>>(source_tile);
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {

@@ -29,8 +29,6 @@ class FmmOperators {
 
  private:
   void decompose(double cutoff);
-  /// Columns of planes at stride n_padded.
-  PaddedMatrix<Real> with_plane_columns(const Eigen::MatrixXd& matrix) const;
 
   SurfaceOperators algebra_;
   double transfer_tolerance_;

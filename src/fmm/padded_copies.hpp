@@ -1,34 +1,40 @@
 #pragma once
 
 #include "fmm/fmm_operator_set.hpp"
+#include "fmm/thin_factors.hpp"
 
-#include <Eigen/Dense>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+// Operators in double precision as the passes want them: padded to whole packs, in either precision. Views are made:
+// not inside a parallel loop.
 
 namespace skein {
 
-/// A matrix as the passes want it. Views are made: not inside a parallel loop.
 template <class Real>
-PaddedMatrix<Real> to_padded(const Eigen::MatrixXd& matrix) {
-  PaddedMatrix<Real> result;
-  result.n_rows = padded<Real>(static_cast<int>(matrix.rows()));
-  result.n_columns = static_cast<int>(matrix.cols());
-  result.entry =
-      Kokkos::View<Real*, HostSpace>("skein::padded_copies::entry", static_cast<std::size_t>(result.n_rows) *
-                                                                        static_cast<std::size_t>(result.n_columns));
-  for (int j = 0; j < result.n_columns; ++j)
-    for (int i = 0; i < matrix.rows(); ++i)
-      result.entry(static_cast<std::size_t>(j) * static_cast<std::size_t>(result.n_rows) +
-                   static_cast<std::size_t>(i)) = static_cast<Real>(matrix(i, j));
-  return result;
-}
+PaddedMatrix<Real> to_padded(const Eigen::MatrixXd& matrix);
 
-/// The same with planes of n rows, which begin at multiples of n_padded.
+/// The same with planes of n rows, or of n columns, which begin at multiples of n_padded.
 template <class Real>
-PaddedMatrix<Real> to_padded_planes(const Eigen::MatrixXd& matrix, const int n, const int n_padded) {
-  const auto n_planes = matrix.rows() / n;
-  Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(n_planes * n_padded, matrix.cols());
-  for (Eigen::Index c = 0; c < n_planes; ++c) spread.middleRows(c * n_padded, n) = matrix.middleRows(c * n, n);
-  return to_padded<Real>(spread);
-}
+PaddedMatrix<Real> to_padded_planes(const Eigen::MatrixXd& matrix, int n, int n_padded);
+template <class Real>
+PaddedMatrix<Real> to_padded_plane_columns(const Eigen::MatrixXd& matrix, int n, int n_padded);
+
+/// Places for OperatorSet::surface and how many they are; the padding repeats the last one.
+template <class Real>
+void set_surface(const Eigen::MatrixX3d& points, OperatorSet<Real>& set);
+
+/// Signs of coefficients under reflections. @param parity  of each, bit c: odd under reflection of axis c
+template <class Real>
+void set_signs(const std::vector<int>& parity, OperatorSet<Real>& set);
+
+/// Builds the transfers whose bit is set in `met` and that do not exist yet, in parallel, by make(index).
+template <class Real>
+void require_transfers(std::uint64_t met, const std::function<ThinMatrices(int)>& make, OperatorSet<Real>& set);
+
+/// Of all matrices.
+template <class Real>
+double bytes_of(const OperatorSet<Real>& set);
 
 }  // namespace skein

@@ -2,6 +2,8 @@
 
 #include <skein/fmm/fmm_plan.hpp>
 
+#include "fmm/thin_factors.hpp"
+
 #include <Eigen/Dense>
 
 #include <vector>
@@ -10,11 +12,6 @@ namespace skein {
 
 /// Points of the surface of the cube |x| = 1 with `order` points per edge: 6 (order - 1)^2 + 2 in all.
 Eigen::MatrixX3d make_surface(int order);
-
-/// What remains of A = last first, or of A = last where `first` is empty.
-struct ThinMatrices {
-  Eigen::MatrixXd last, first;
-};
 
 /// The operators of one far field at one ratio of blob to half-width, in double precision: the algebra behind
 /// FmmOperators, which runs the loops over parities and transfers and keeps copies as the passes want them. Source:

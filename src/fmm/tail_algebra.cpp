@@ -1,7 +1,5 @@
 #include "tail_algebra.hpp"
 
-#include "thin_factors.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -141,7 +139,8 @@ MatrixXd TailAlgebra::project(const int (&place)[3], const int degree) const {
   return result;
 }
 
-TailAlgebra::Transfer TailAlgebra::make_transfer(const int (&place)[3], const double tolerance) const {
+ThinMatrices TailAlgebra::make_transfer(const int index, const double tolerance) const {
+  const int place[3] = {index & 3, index >> 2 & 3, index >> 4};
   // Boxes two cells apart or more see less of each other: there a lower degree does.
   const int degree = std::max({place[0], place[1], place[2]}) > 2 ? std::max(1, degree_ - 2) : degree_;
   const MatrixXd low = project(place, degree);
@@ -151,7 +150,7 @@ TailAlgebra::Transfer TailAlgebra::make_transfer(const int (&place)[3], const do
   // From orthonormal polynomials of this degree to those of Legendre of all degrees.
   const Eigen::MatrixX3i powers = list_powers(degree);
   const Index n = powers.rows();
-  Transfer result{MatrixXd::Zero(rank(), range.cols()), MatrixXd::Zero(range.cols(), rank())};
+  ThinMatrices result{MatrixXd::Zero(rank(), range.cols()), MatrixXd::Zero(range.cols(), rank())};
   for (Index at = 0, k = 0; at < n_polynomials_; ++at) {
     if (powers_.row(at).sum() > degree) continue;
     for (int c = 0; c < 3; ++c) {

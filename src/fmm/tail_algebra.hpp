@@ -1,5 +1,7 @@
 #pragma once
 
+#include "fmm/thin_factors.hpp"
+
 #include <Eigen/Dense>
 
 namespace skein {
@@ -22,12 +24,9 @@ class TailAlgebra {
   Eigen::MatrixXd to_points() const;
 
   /// Thin factors of the operator from a source box's moments to a target box's coefficients.
-  struct Transfer {
-    Eigen::MatrixXd last, first;
-  };
-  /// @param place      centre of the source box less that of the target box, in cells, >= 0
+  /// @param index      transfer_index of the way between the boxes
   /// @param tolerance  that may be lost, relative to the transfer between nearest boxes (Frobenius norm)
-  Transfer make_transfer(const int (&place)[3], double tolerance) const;
+  ThinMatrices make_transfer(int index, double tolerance) const;
 
   /// Moments of a parent from those of the child at the upper side of all axes.
   Eigen::MatrixXd make_pass_up() const;

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "fmm/blob_tail.hpp"
-#include "fmm/box_sums.hpp"
-#include "fmm/passes.hpp"
+#include "fmm/box_passes.hpp"
 
 #include <cstddef>
 
@@ -76,7 +75,7 @@ struct SourcesToMoments {
     for (int b = boxes.first; b < boxes.first + boxes.count; ++b) {
       const Box& box = passes.boxes(b);
       Real* const moment = passes.source_of(b);
-      for (int i = worker.rank(); i < passes.coefficients.box_size; i += worker.size()) moment[i] = Real(0);
+      fill_zeros(worker, moment, passes.coefficients.box_size);
       if (!box.is_leaf() || box.sources.count == 0) continue;
       add_tail_moments(worker, passes.nodes, box.sources, passes.cube.center(box), passes.cube.half_width(box.level),
                        passes.field.degree, tile.data(), moment);

@@ -4,6 +4,11 @@
 
 namespace skein {
 
+/// What remains of A = last first, or of A = last where `first` is empty.
+struct ThinMatrices {
+  Eigen::MatrixXd last, first;
+};
+
 /// A = U S V^T, S falling.
 struct SingularValues {
   Eigen::MatrixXd u, v;
