@@ -63,4 +63,24 @@ inline reference::PointForces with_forces(const std::vector<Vec3>& nodes, const 
           std::vector<double>(nodes.size(), blob)};
 }
 
+/// The nearest well-separated boxes: sources fill one, targets the next but one.
+struct NearestBoxes {
+  static constexpr double half_width = 0.37;
+  reference::PointForces from;
+  std::vector<Vec3> target;
+
+  /// @param pin  of the nodes in the far corners, which pin the boxes, in half-widths from a box's centre
+  NearestBoxes(const double blob_over_half_width, const std::uint64_t seed, const double pin = 1.0) {
+    reference::Random random(seed);
+    for (int i = 0; i < 200; ++i) {
+      from.position.push_back(half_width * random.in_cube(0.9999));
+      target.push_back(half_width * (Vec3{4.0, 0.0, 0.0} + random.in_cube(0.9999)));
+      from.force.push_back(Vec3{1.0, 0.5, -0.7} + random.in_cube(1.0));
+      from.blob.push_back(blob_over_half_width * half_width);
+    }
+    from.position[0] = half_width * Vec3{-pin, -0.9999, -0.9999};
+    target[0] = half_width * Vec3{4.0 + pin, 0.9999, 0.9999};
+  }
+};
+
 }  // namespace skein

@@ -57,26 +57,15 @@ class BlobTail : public testing::TestWithParam<KernelPath> {
   }
 };
 
-/// Error between the nearest well-separated boxes: sources fill one, targets the next but one.
+/// Error between the nearest well-separated boxes.
 double nearest_boxes_error(FmmOptions options, const double blob_over_half_width, const std::uint64_t seed) {
-  constexpr double half_width = 0.37;
-  Random random(seed);
-  PointForces from;
-  std::vector<Vec3> target;
-  for (int i = 0; i < 200; ++i) {
-    from.position.push_back(half_width * random.in_cube(0.9999));
-    target.push_back(half_width * (Vec3{4.0, 0.0, 0.0} + random.in_cube(0.9999)));
-    from.force.push_back(Vec3{1.0, 0.5, -0.7} + random.in_cube(1.0));
-    from.blob.push_back(blob_over_half_width * half_width);
-  }
-  from.position[0] = half_width * Vec3{-1.0, -0.9999, -0.9999};  // the corners pin the boxes
-  target[0] = half_width * Vec3{5.0, 0.9999, 0.9999};
+  const NearestBoxes boxes(blob_over_half_width, seed);
   options.leaf_size = 1;
-  options.min_half_width = half_width;
-  const Result result = evaluate(from, target, options);
+  options.min_half_width = boxes.half_width;
+  const Result result = evaluate(boxes.from, boxes.target, options);
   EXPECT_EQ(result.statistics.work.near_pairs, 0.0);
   EXPECT_EQ(result.statistics.work.far_pairs, 1.0);
-  return error_of(result, from, target);
+  return error_of(result, boxes.from, boxes.target);
 }
 
 TEST_P(BlobTail, LeavesAFloorOfTheSixthPower) {

@@ -34,23 +34,11 @@ Result compare_with_direct(const PointForces& from, const std::vector<Vec3>& tar
   return {error_of(to_host(got), to_host(exact)), fmm.statistics()};
 }
 
-/// Error between the nearest well-separated boxes: sources fill one, targets the next but one.
+/// Error between the nearest well-separated boxes.
 double nearest_boxes_error(const int order, const double blob_over_half_width, const double cutoff,
                            const FarField far_field, const bool stokes_part_only) {
-  constexpr double half_width = 0.37;
-  Random random(5);
-  PointForces from;
-  std::vector<Vec3> target;
-  for (int i = 0; i < 200; ++i) {
-    from.position.push_back(half_width * random.in_cube(0.9999));
-    target.push_back(half_width * (Vec3{4.0, 0.0, 0.0} + random.in_cube(0.9999)));
-    from.force.push_back(Vec3{1.0, 0.5, -0.7} + random.in_cube(1.0));
-    from.blob.push_back(blob_over_half_width * half_width);
-  }
   // Cells fit the nodes' extent, or come in steps where operators depend on them.
-  const double pin = far_field == FarField::regularized ? 0.9999 : 1.0;
-  from.position[0] = half_width * Vec3{-pin, -0.9999, -0.9999};  // the corners pin the boxes
-  target[0] = half_width * Vec3{4.0 + pin, 0.9999, 0.9999};
+  const NearestBoxes boxes(blob_over_half_width, 5, far_field == FarField::regularized ? 0.9999 : 1.0);
   FmmOptions options;
   options.far_field = far_field;
   options.stokes_part_only = stokes_part_only;
@@ -58,9 +46,9 @@ double nearest_boxes_error(const int order, const double blob_over_half_width, c
   options.order = order;
   options.singular_cutoff = cutoff;
   options.leaf_size = 1;
-  options.min_half_width = half_width;
+  options.min_half_width = boxes.half_width;
   options.precision = Precision::in_double;
-  const Result result = compare_with_direct(from, target, options);
+  const Result result = compare_with_direct(boxes.from, boxes.target, options);
   EXPECT_EQ(result.statistics.work.near_pairs, 0.0);
   EXPECT_EQ(result.statistics.work.far_pairs, 1.0);
   return result.error;
