@@ -32,9 +32,10 @@ RankParts share_nodes(const std::vector<Fiber>& fibers, const int n_ranks) {
   return RankParts::behind_each_other(std::move(count));
 }
 
-ForceShare::ForceShare(const SceneConfig& scene, const int n_ranks) {
-  const std::vector<Fiber> fibers = make_fibers(resolve_chains(scene).fibers);
-  forces = make_forces(resolve_chains(scene), fibers);
+ForceShare::ForceShare(const SceneConfig& asked, const int n_ranks) {
+  const SceneConfig scene = resolve_chains(asked);
+  const std::vector<Fiber> fibers = make_fibers(scene.fibers);
+  forces = make_forces(scene, fibers);
   nodes = share_nodes(fibers, n_ranks);
 }
 

@@ -17,7 +17,7 @@ struct ForceShare {
   ForceList forces;
   RankParts nodes;
 
-  explicit ForceShare(const SceneConfig& scene, int n_ranks);
+  explicit ForceShare(const SceneConfig& asked, int n_ranks);
 
   /// To be called by all ranks. Overwrites `force` with the sum of all forces, or of their changes, on all nodes; its
   /// order does not depend on how many ranks there are.
