@@ -1,11 +1,8 @@
 #include "kernels/section_fault.hpp"
 
-#include <limits>
-
 namespace skein {
 namespace {
 
-constexpr int no_node = std::numeric_limits<int>::max();
 constexpr double largest_square = 1e300;  ///< of a distance that counts as finite, length^2
 
 /// The first faulty node of a section, or no_node.
@@ -32,12 +29,11 @@ KOKKOS_INLINE_FUNCTION int find_in_section(const ConstVectorView<Space>& positio
 }  // namespace
 
 template <class Space>
-int find_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position,
-                     const double max_ratio) {
+void seek_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position,
+                      const double max_ratio, const FoundNode& found_node) {
   const SectionBoxes<Space> b = boxes;
-  int first = no_node;
   launch_reduction<Space>(
-      "skein::find_faulty_node", space, section_calls<Space>(boxes),
+      "skein::seek_faulty_node", space, section_calls<Space>(boxes),
       KOKKOS_LAMBDA(const int item, int& smallest) {
         const int block = item / sections_per_block;
         const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
@@ -46,12 +42,12 @@ int find_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, const
         const int found = find_in_section<Space>(position, fiber, section, max_ratio);
         if (found < smallest) smallest = found;
       },
-      Kokkos::Min<int>(first));
-  return first == no_node ? -1 : first;
+      Kokkos::Min<int, SharedHostMemory>(found_node));
 }
 
-#define SKEIN_INSTANTIATE(S) \
-  template int find_faulty_node<S>(const S&, const SectionBoxes<S>&, const ConstVectorView<S>&, double);
+#define SKEIN_INSTANTIATE(S)                                                                             \
+  template void seek_faulty_node<S>(const S&, const SectionBoxes<S>&, const ConstVectorView<S>&, double, \
+                                    const FoundNode&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

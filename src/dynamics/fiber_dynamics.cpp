@@ -91,8 +91,16 @@ Linearization* FiberDynamics::linearization() {
   return linearization_.get();
 }
 
+void FiberDynamics::seek_fault(const ConstVectors& position) {
+  physics_.sections.seek_faulty_node(position, burst_ratio);
+  sought_ = position;
+}
+
 std::string FiberDynamics::find_fault(const ConstVectors& position) const {
-  const int node = physics_.sections.find_faulty_node(position, burst_ratio);
+  const bool is_sought = sought_.data() != nullptr && sought_.data() == position.data();
+  sought_ = {};
+  const int node =
+      is_sought ? physics_.sections.found_faulty_node() : physics_.sections.find_faulty_node(position, burst_ratio);
   return node < 0 ? std::string() : describe_fault(position, node);
 }
 

@@ -59,15 +59,24 @@ Sections::Sections(const std::vector<Fiber>& fibers)
       n_sections_(count_sections(fibers)),
       boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(fibers))),
       surfaces_(std::make_unique<TubeSurfaces<ExecSpace>>(make_surfaces(*boxes_))),
-      depth_("skein::Sections::depth", static_cast<std::size_t>(n_nodes_)) {}
+      depth_("skein::Sections::depth", static_cast<std::size_t>(n_nodes_)),
+      faulty_node_("skein::Sections::faulty_node") {}
 
 Sections::~Sections() = default;
 Sections::Sections(Sections&&) noexcept = default;
 Sections& Sections::operator=(Sections&&) noexcept = default;
 
-int Sections::find_faulty_node(const ConstVectors& position, const double max_ratio) const {
+void Sections::seek_faulty_node(const ConstVectors& position, const double max_ratio) const {
   SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
-  return skein::find_faulty_node<ExecSpace>(ExecSpace(), *boxes_, position, max_ratio);
+  skein::seek_faulty_node<ExecSpace>(ExecSpace(), *boxes_, position, max_ratio, faulty_node_);
+}
+
+int Sections::found_faulty_node() const { return faulty_node_() == no_node ? -1 : faulty_node_(); }
+
+int Sections::find_faulty_node(const ConstVectors& position, const double max_ratio) const {
+  seek_faulty_node(position, max_ratio);
+  ExecSpace().fence();
+  return found_faulty_node();
 }
 
 void Sections::compute_means(const ConstVectors& vector, const Vectors& mean) const {

@@ -9,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -106,6 +109,32 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsOneLaunchAndOneWait) {
   }
 }
 
+// An integrator has its error to wait for, and learns both then.
+TEST(LaunchCounts, OfTheSearchForFaultsIsNoWaitWhereTheCallerHasOne) {
+  Physics physics = test::make_direct_physics(make_scene(3));
+  FiberDynamics dynamics(physics);
+  const std::vector<Vec3> good = make_surface_nodes(physics.fibers);
+  std::vector<Vec3> bad = good;
+  bad[7].y = std::nan("");
+  const Vectors position = to_device("position", good), other = to_device("other", bad);
+  {
+    const Counting counting;
+    dynamics.seek_fault(other);
+    EXPECT_EQ(counted, (Launches{.reductions = 1}));
+  }
+  ExecSpace().fence();
+  {
+    const Counting counting;
+    EXPECT_NE(dynamics.find_fault(other).find("node 7"), std::string::npos);
+    EXPECT_EQ(counted.reductions, 0);
+  }
+  // What was sought serves once, and for the positions that it was sought at.
+  dynamics.seek_fault(other);
+  EXPECT_EQ(dynamics.find_fault(position), "");
+  Kokkos::deep_copy(other, position);
+  EXPECT_EQ(dynamics.find_fault(other), "");
+}
+
 // Centreline, gap and nodes in surfaces: three kernels locate sections for all of them.
 TEST(LaunchCounts, OfTheLookAtSectionsAreFiveAndACopy) {
   for (const int n_fibers : {1, 100}) {
@@ -167,7 +196,7 @@ CountedStep count_rkc2_step(const double dt) {
   return {stages, counted};
 }
 
-// A stage is an evaluation and one combination; waits belong to steps, for their error and for faults.
+// A stage is an evaluation and one combination; a step has a wait, for its error and for faults.
 TEST(LaunchCounts, OfAStageOfRkc2OnADeviceAreFiveAndNoWait) {
   const CountedStep few = count_rkc2_step(1e-3), many = count_rkc2_step(4e-3);
   const int more = many.stages - few.stages;
@@ -176,6 +205,7 @@ TEST(LaunchCounts, OfAStageOfRkc2OnADeviceAreFiveAndNoWait) {
   EXPECT_EQ(many.launches.reductions, few.launches.reductions);
   EXPECT_EQ(many.launches.copies, few.launches.copies);
   EXPECT_EQ(many.launches.fences, few.launches.fences);
+  EXPECT_EQ(few.launches.reductions, 1) << "faults";
 }
 
 }  // namespace

@@ -10,6 +10,17 @@
 
 namespace skein {
 
+/// Memory of the host that kernels write, too: a number that they leave there is read without a copy, after a wait.
+#if KOKKOS_VERSION >= 40000
+using SharedHostMemory = Kokkos::SharedHostPinnedSpace;
+#elif defined(KOKKOS_ENABLE_CUDA)
+using SharedHostMemory = Kokkos::CudaHostPinnedSpace;
+#elif defined(KOKKOS_ENABLE_HIP)
+using SharedHostMemory = Kokkos::Experimental::HIPHostPinnedSpace;
+#else
+using SharedHostMemory = Kokkos::HostSpace;
+#endif
+
 /// Kokkos::initialize with a number of host threads; 0 leaves the choice to the environment.
 inline void initialize_kokkos(const int threads) {
 #if KOKKOS_VERSION >= 30700

@@ -22,6 +22,7 @@ class FiberDynamics final : public RightHandSide {
   /// A node that is not finite, or so far from its section's centre that no spring network holds it: a section of
   /// radius R whose node is at more than burst_ratio R has burst.
   std::string find_fault(const ConstVectors& position) const override;
+  void seek_fault(const ConstVectors& position) override;
   static constexpr double burst_ratio = 2.0;
 
   /// Rigid fibers' nodes are put onto the rigid body that fits them best.
@@ -61,6 +62,7 @@ class FiberDynamics final : public RightHandSide {
   ConstrainedMotion motion_;
   Vectors force_, places_;
   std::int64_t evaluations_ = 0;
+  mutable ConstVectors sought_;  ///< positions of the last seek_fault, until they are asked for
   bool times_parts_ = false;
   Seconds seconds_;
   std::unique_ptr<FiberLinearization> linearization_;

@@ -43,6 +43,11 @@ class Sections {
   /// @param position  [n_nodes, 3], length, as in all calls below
   int find_faulty_node(const ConstVectors& position, double max_ratio) const;
 
+  /// The same in two parts, between which something else is waited for: launches the search,
+  void seek_faulty_node(const ConstVectors& position, double max_ratio) const;
+  /// and says what it found, after a wait for the device.
+  int found_faulty_node() const;
+
   /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
   void compute_means(const ConstVectors& vector, const Vectors& mean) const;
 
@@ -74,6 +79,7 @@ class Sections {
   std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
   std::unique_ptr<TubeSurfaces<ExecSpace>> surfaces_;
   Scalars depth_;  ///< [n_nodes], of nodes in surfaces, length
+  Kokkos::View<int, SharedHostMemory> faulty_node_;
 };
 
 }  // namespace skein

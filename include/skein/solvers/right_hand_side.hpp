@@ -19,8 +19,12 @@ class RightHandSide {
   virtual void compute_velocity(double time, const ConstVectors& position, const Vectors& velocity) = 0;
 
   /// What is wrong with these positions, naming the node; empty where they are fit to go on from. One launch and one
-  /// wait.
+  /// wait; after seek_fault no wait.
   virtual std::string find_fault(const ConstVectors& position) const = 0;
+
+  /// Launches what the next find_fault will be asked, with the same positions, after a wait for the execution space
+  /// that the caller has anyway. May do nothing.
+  virtual void seek_fault(const ConstVectors& /*position*/) {}
 
   /// Puts positions back among those that it allows, such as those of rigid bodies, from which a step leads away by its
   /// error: integrators do so with what they accept and what they interpolate. Velocities are the same before and

@@ -13,6 +13,7 @@ class RightHandSideDecorator : public RightHandSide {
     inner_.compute_velocity(time, position, velocity);
   }
   std::string find_fault(const ConstVectors& position) const override { return inner_.find_fault(position); }
+  void seek_fault(const ConstVectors& position) override { inner_.seek_fault(position); }
   void project(const Vectors& position) override { inner_.project(position); }
   void begin_step() override { inner_.begin_step(); }
   void end_step() noexcept override { inner_.end_step(); }
