@@ -3,6 +3,7 @@
 #include <skein/fibers/node_orbits.hpp>
 #include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/mobility_choice.hpp>
+#include <skein/physics/scene_times.hpp>
 
 #include <fmt/format.h>
 
@@ -16,9 +17,10 @@ namespace {
 /// Leaves side by side, of which the first and the last do not touch.
 constexpr double least_cells = 3.0;
 
-FmmOptions make_fmm_options(const HydrodynamicsConfig& config) {
+FmmOptions make_fmm_options(const SceneConfig& scene) {
+  const HydrodynamicsConfig& config = scene.hydrodynamics;
   FmmOptions options;
-  options.tolerance = config.tolerance;
+  options.tolerance = find_sum_tolerance(scene);
   options.far_field = config.far_field;
   options.order = config.order;
   options.leaf_size = config.leaf_size;
@@ -89,8 +91,7 @@ void choose_method(const SceneConfig& scene, const double gain, MobilityChoice& 
   choice.is_direct = true;
   const double least_nodes = rates.least_fmm_nodes * std::sqrt(gain);
   if (choice.precision == Precision::automatic)
-    choice.precision =
-        choose_direct_precision(rates, size.n_nodes * size.n_nodes / gain, scene.hydrodynamics.tolerance);
+    choice.precision = choose_direct_precision(rates, size.n_nodes * size.n_nodes / gain, choice.fmm.tolerance);
   if (size.n_nodes < least_nodes) {
     choice.reason =
         fmt::format("chosen because {}, and below {:.4g} nodes little would be gained by any other",
@@ -113,7 +114,7 @@ void choose_method(const SceneConfig& scene, const double gain, MobilityChoice& 
 MobilityChoice choose_mobility(const SceneConfig& scene, const KernelPath path) {
   MobilityChoice choice;
   choice.precision = scene.hydrodynamics.precision;
-  choice.fmm = make_fmm_options(scene.hydrodynamics);
+  choice.fmm = make_fmm_options(scene);
   choice.fmm.path = path;
   const NodeOrbits orbits = find_orbits(scene);
   switch (scene.hydrodynamics.method) {
@@ -157,7 +158,7 @@ std::string describe_choice(const MobilityChoice& choice, const SceneConfig& sce
 std::vector<KeyProblem> find_mobility_problems(const SceneConfig& scene) {
   const HydrodynamicsConfig& config = scene.hydrodynamics;
   if (config.method == SumMethod::direct) return {};
-  const FmmOptions options = make_fmm_options(config);
+  const FmmOptions options = make_fmm_options(scene);
   const Size size = measure_size(scene);
   const bool falls_back =
       config.method == SumMethod::automatic && config.precision != Precision::in_single && needs_direct_sum(options);

@@ -46,9 +46,24 @@ std::vector<KeyProblem> find_problems(const SceneConfig& scene, const double tim
   return problems;
 }
 
+double round_to_three_digits(const double value) {
+  const double unit = std::pow(10.0, 2.0 - std::floor(std::log10(value)));
+  return std::round(value * unit) / unit;
+}
+
+/// @param time  resolved
+double choose_sum_tolerance(const TimeConfig& time, const double time_scale) {
+  constexpr double share = 2.5, least = 1e-6, largest = 1e-3, with_fixed_steps = 1e-5;
+  if (time.step > 0.0) return with_fixed_steps;
+  const double balanced = share * time.tolerance * time_scale;
+  return balanced > least ? round_to_three_digits(std::min(balanced, largest)) : least;
+}
+
 /// The scene with numbers for all its times.
 SceneConfig fill_in_times(SceneConfig scene, const double time_scale) {
   scene.time = resolve_time(scene.time, time_scale);
+  double& sum_tolerance = scene.hydrodynamics.tolerance;
+  if (sum_tolerance == 0.0) sum_tolerance = choose_sum_tolerance(scene.time, time_scale);
   if (scene.output.frame_interval == 0.0) scene.output.frame_interval = 0.125 * time_scale;
   return scene;
 }
@@ -70,6 +85,12 @@ TimeConfig resolve_time(TimeConfig time, const double time_scale) {
   if (time.tolerance == 0.0) time.tolerance = 1e-4 / (2.5 * time_scale);
   if (time.max_step == 0.0) time.max_step = std::max(0.25 * time_scale, time.step);
   return time;
+}
+
+double find_sum_tolerance(const SceneConfig& scene) {
+  if (scene.hydrodynamics.tolerance > 0.0) return scene.hydrodynamics.tolerance;
+  const double time_scale = find_time_scale(scene);
+  return choose_sum_tolerance(resolve_time(scene.time, time_scale), time_scale);
 }
 
 std::vector<KeyProblem> find_time_problems(const SceneConfig& scene) {

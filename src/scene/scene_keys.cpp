@@ -84,9 +84,10 @@ void visit_hydrodynamics(KeyVisitor& visitor, HydrodynamicsConfig& hydrodynamics
   visitor.choice({"method", "", {}, "how the sum over nodes is made"}, words_of<SumMethod>(), hydrodynamics.method);
   visitor.choice({"precision", "", {}, "arithmetic of a pair of nodes"}, words_of<Precision>(),
                  hydrodynamics.precision);
-  visitor.number({"tolerance", "", between(1e-15, 0.01),
+  visitor.number({"tolerance", "", between(0, 0.01),
                   "error of all velocities together (2-norm, relative) that fmm may make: the order, precision and "
-                  "smallest leaves follow from it"},
+                  "smallest leaves follow from it; 0: 2.5 time.tolerance times the time scale, from 1e-6 to 1e-3, that "
+                  "is 1e-4 unless time.tolerance is set; 1e-5 with a fixed step"},
                  hydrodynamics.tolerance);
   visitor.choice({"far_field", "", {}, "how fmm sees distant nodes"}, words_of<FarField>(), hydrodynamics.far_field);
   visitor.integer({"order", "", between(0, 16),

@@ -139,12 +139,14 @@ class GoodScenes(InFreshFolder):
     def test_the_method_is_named_with_its_reason(self):
         for overrides, expected in [
             ([], "direct sum, pairs in double precision; chosen because"),
-            (["fiber.sections=301"], "harmonic far field of order 7 in single precision"),
+            (["fiber.sections=301"], "harmonic far field of order 6 in single precision"),
+            (["fiber.sections=301", "time.tolerance=1e-5"], "order 7 in single precision"),
+            (["fiber.sections=301", "time.step=1e-3"], "order 7 in single precision"),
             (["fiber.sections=101", "hydrodynamics.tolerance=1e-9"], "chosen because with blobs of 0.00225"),
             (["fiber.sections=301", "hydrodynamics.tolerance=1e-12"], "chosen because tolerance = 1e-12 is below"),
             (["hydrodynamics.method=direct", "hydrodynamics.precision=single"], "pairs in single precision"),
             (["hydrodynamics.method=fmm", "hydrodynamics.precision=double", "hydrodynamics.check_every=0",
-              "hydrodynamics.order=9"], "order 9 in double precision, about 90 nodes a leaf of half-width 0.00663 or more "
+              "hydrodynamics.order=9", "hydrodynamics.tolerance=1e-5"], "order 9 in double precision, about 90 nodes a leaf of half-width 0.00663 or more "
               "(for the blobs), tails of the blobs by polynomials of degree 4, error of at most 3e-07 expected by the order and 1e-05 by the blobs, 1e-05 allowed; never "
               "checked"),
         ]:

@@ -6,6 +6,7 @@
 
 #include "runs/observables.hpp"
 #include "tests/support/direct_physics.hpp"
+#include "tests/support/nan_trap.hpp"
 
 #include <gtest/gtest.h>
 
@@ -111,6 +112,7 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsOneLaunchAndOneWait) {
 
 // An integrator has its error to wait for, and learns both then.
 TEST(LaunchCounts, OfTheSearchForFaultsIsNoWaitWhereTheCallerHasOne) {
+  const test::MeantNan not_a_number_is_meant;
   Physics physics = test::make_direct_physics(make_scene(3));
   FiberDynamics dynamics(physics);
   const std::vector<Vec3> good = make_surface_nodes(physics.fibers);

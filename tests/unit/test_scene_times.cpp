@@ -59,6 +59,26 @@ TEST(SceneTimes, AreKeptWhereTheyAreGiven) {
   EXPECT_EQ(write_scene(resolve_times(read)), write_scene(resolved));
 }
 
+TEST(SceneTimes, BalanceTheSumsWithTheSteps) {
+  SceneConfig scene = make_scene();
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 1e-4);
+  EXPECT_EQ(find_sum_tolerance(scene), 1e-4);
+  // The same motion ten times slower, whose tolerance is a tenth by default, and by hand.
+  scene.flows.front().rate *= 0.1;
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 1e-4);
+  scene.time.tolerance = 2e-6;
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 2e-5);
+  scene.time.tolerance = 1e-9;
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 1e-6);
+  scene.time.tolerance = 0.02;
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 1e-3);
+  scene.time.step = 0.01;
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 1e-5);
+  scene.hydrodynamics.tolerance = 3e-7;
+  EXPECT_EQ(resolve_times(scene).hydrodynamics.tolerance, 3e-7);
+  EXPECT_EQ(find_sum_tolerance(scene), 3e-7);
+}
+
 TEST(SceneTimes, LeaveAFixedStepAsItIs) {
   SceneConfig scene = make_scene();
   scene.time.step = 0.3;
@@ -75,6 +95,7 @@ TEST(SceneTimes, GoWithTheUnits) {
       EXPECT_EQ(find_time_scale(b), units.time * find_time_scale(a)) << row.name;
       EXPECT_EQ(b.time.tolerance * units.time, a.time.tolerance) << row.name;
       EXPECT_EQ(b.time.max_step, units.time * a.time.max_step) << row.name;
+      EXPECT_EQ(b.hydrodynamics.tolerance, a.hydrodynamics.tolerance) << row.name;
       EXPECT_EQ(b.output.frame_interval, units.time * a.output.frame_interval) << row.name;
     }
 }

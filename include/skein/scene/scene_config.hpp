@@ -183,7 +183,8 @@ struct SymmetryConfig {
 struct HydrodynamicsConfig {
   SumMethod method = SumMethod::automatic;
   Precision precision = Precision::automatic;  ///< arithmetic of a pair
-  double tolerance = 1e-5;                     ///< of velocities, relative (2-norm), where they are not summed directly
+  /// Of velocities, relative (2-norm), where they are not summed directly; 0: see find_sum_tolerance.
+  double tolerance = 0.0;
   FarField far_field = FarField::harmonic;
   int order = 0;         ///< points per edge of the surfaces; 0: as the tolerance needs
   int leaf_size = 0;     ///< nodes per leaf of the tree; 0: as the order needs
