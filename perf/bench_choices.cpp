@@ -1,7 +1,7 @@
-// What `method = "auto"` takes, beside everything else that it could have taken: direct sums in double and in single,
-// and the fast multipole method with leaves of half, once and twice as many nodes, with and without tails of the blobs.
-// One line for each number of nodes and tolerance, the last one with the worst of them.
-// Usage: bench_choices [tiny] [spiral] [most=N]   (threads: OMP_NUM_THREADS)
+// What `method = "auto"` takes, beside everything else that it could have taken: direct sums in double, on a device
+// also in single (of a host's it promises that they are exact), and the fast multipole method with leaves of half, once
+// and twice as many nodes, with and without tails of the blobs. One line for each number of nodes and tolerance, the
+// last one with the worst of them. Usage: bench_choices [tiny] [spiral] [least=N] [most=N]   (threads: OMP_NUM_THREADS)
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
@@ -67,7 +67,7 @@ std::vector<Way> list_ways(const int n_nodes, const MobilityChoice& choice) {
   std::vector<Way> ways;
   if (n_nodes <= most_by_direct_sums) {
     ways.push_back(make_direct(Precision::in_double));
-    if (choice.fmm.tolerance >= 1e-6) ways.push_back(make_direct(Precision::in_single));
+    if (!on_host<ExecSpace> && choice.fmm.tolerance >= 1e-6) ways.push_back(make_direct(Precision::in_single));
   }
   FmmOptions options = choice.fmm;
   options.direct_when_cheaper = false;
@@ -110,10 +110,11 @@ int main(int argc, char** argv) {
   const Runtime runtime;
   perf::print_context();
   bool is_tiny = false, is_spiral = false;
-  int most = 999990;
+  int least = 0, most = 999990;
   for (int a = 1; a < argc; ++a) {
     is_tiny |= std::string_view(argv[a]) == "tiny";
     is_spiral |= std::string_view(argv[a]) == "spiral";
+    std::sscanf(argv[a], "least=%d", &least);
     std::sscanf(argv[a], "most=%d", &most);
   }
   if (is_tiny) most = 504;
@@ -121,7 +122,7 @@ int main(int argc, char** argv) {
   double worst = 0.0;
   for (const int n : {504, 1008, 1512, 2880, 5418, 10800, 23634, 94536, 378144, 999990})
     for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8})
-      if (n <= most)
+      if (n >= least && n <= most)
         worst = std::max(worst, compare(is_spiral ? perf::make_spiral(n) : perf::make_straight(n), tolerance));
   std::printf("# auto takes at most %.2f times as long as the best\n", worst);
   return 0;

@@ -1,6 +1,6 @@
 // The fast multipole method against this project's direct sum in the same run: error against order, speed against
 // error, crossover, growth with the number of nodes, set-up. Nodes move a little before every evaluation, so the tree
-// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [step] [crossover] [uniform [only=N]] [setup] [chart]
+// and its lists count. Usage: bench_fmm [pair] [sixteen] [speed] [step] [crossover] [uniform [only=N]] [setup]
 // [device [leaves] [only=N]] [tiny] (threads: OMP_NUM_THREADS). "device" times the path through the execution space's
 // memory, on hosts only when asked.
 
@@ -302,59 +302,6 @@ void bench_setup(const bool tiny) {
     }
 }
 
-/// Time against error for the chart: every order of the far fields at every number of nodes, and the direct sums.
-void bench_chart(const bool tiny) {
-  struct Reference {
-    Case problem;
-    int repeats;
-  };
-  std::printf("\n# Chart\nshape,nodes,method,p,ms,error\n");
-  std::vector<Reference> references;
-  for (const int n : {1440, 5760, 23634, 90000}) {
-    if (tiny && n > 1440) continue;
-    references.push_back({Case(make_straight(n), fiber_blob), n < 10000 ? 9 : n < 50000 ? 3 : 1});
-    auto& [problem, repeats] = references.back();
-    DirectMobility direct(viscosity, Precision::in_double), direct_single(viscosity, Precision::in_single);
-    const auto seconds = perf::median_seconds(
-        repeats,
-        std::vector<std::function<void()>>{[&] { problem.compute(direct); }, [&] { problem.compute(direct_single); }});
-    problem.compute(direct);
-    const auto exact = to_host(problem.velocity);
-    problem.compute(direct_single);
-    std::printf("straight,%d,direct_double,0,%.4f,1e-15\n", n, 1e3 * seconds[0]);
-    std::printf("straight,%d,direct_single,0,%.4f,%.2e\n", n, 1e3 * seconds[1],
-                relative_error(to_host(problem.velocity), exact));
-  }
-  for (const FarField field : {FarField::harmonic, FarField::stokeslet, FarField::regularized})
-    for (int p = 4; p <= 14; ++p) {
-      if (field == FarField::regularized && (p > 10 || p % 2 == 1)) continue;
-      if (tiny && p > 5) continue;
-      FmmOptions harmonic;
-      harmonic.tolerance = 1.0;
-      harmonic.order = p;
-      harmonic.precision = Precision::in_double;
-      const double error = choose_fmm_plan(harmonic, 0.0, 0).expected_error;  // the order's own
-      FmmOptions options;
-      options.far_field = field;
-      options.order = p;
-      // The leaf that balances the blobs' part of the harmonic field's error with the order's.
-      options.min_half_width = fiber_blob * std::pow(0.011 / error, 0.25);
-      options.tolerance = field == FarField::harmonic ? 2.5 * error : 1.0;  // allows single precision, or not
-      FmmMobility fmm(viscosity, options);                                  // its operators serve all numbers of nodes
-      for (auto& [problem, repeats] : references) {
-        if (options.min_half_width > tube_length(problem.n) / 6.0) continue;  // no leaf is far from another
-        problem.compute(fmm);
-        const auto seconds = perf::median_seconds(repeats, std::vector<std::function<void()>>{[&] {
-                                                    problem.move_nodes();
-                                                    problem.compute(fmm);
-                                                  }});
-        std::printf("straight,%d,fmm_%s,%d,%.4f,%.2e\n", problem.n, word_of(field).c_str(), p, 1e3 * seconds[0],
-                    fmm.measure_error(problem.sources(), problem.position, 300));
-        std::fflush(stdout);
-      }
-    }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -377,6 +324,5 @@ int main(int argc, char** argv) {
   if (asked("setup")) bench_setup(tiny);
   const auto has = [&](const char* part) { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
   if (tiny || has("device")) bench_device(tiny, has("leaves"), only);
-  if (asked("chart")) bench_chart(tiny);
   return 0;
 }

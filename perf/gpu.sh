@@ -151,6 +151,14 @@ for tool in memcheck racecheck; do
 done
 collect
 
+# What `auto` takes, beside the best that it could have taken, from 504 nodes to a million and from 1e-3 to 1e-8.
+if ((SECONDS < 380)); then
+  timeout 90 "$bin/bench_choices" >"$kept/choices.csv"
+  worst=$(sed -n 's/^# auto takes at most \([0-9.]*\) times.*/\1/p' "$kept/choices.csv")
+  if [[ -z $worst ]]; then must "auto within 1.3 of the best (90 s were not enough)" "not run"
+  else must "auto takes at most $worst times as long as the best, 1.3 at most" "$(is_true "$worst <= 1.3")"; fi
+fi
+
 # Peaks, shares of them, steps by length; then, where time is left, the rates that choices are made by (src/fmm/machine_rates.cpp).
 timeout 90 "$bin/skein" bench machine | tee "$kept/machine.txt"
 if ((SECONDS < 440)); then timeout 40 "$bin/bench_rates"; fi

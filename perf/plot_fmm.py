@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""What bench_fmm measured, as pictures.
+"""What bench_chart and bench_fmm measured, as pictures.
 
-Usage: bench_fmm chart > chart.csv; plot_fmm.py chart.csv fmm_error_time.png
+Usage: bench_chart > chart.csv; plot_fmm.py chart.csv fmm_error_time.png [perf/peers.csv]
        bench_fmm pair sixteen > pair.csv; plot_fmm.py pair.csv fmm_error_blob.png
-The first: time against error of direct sums and of the fast multipole method. The second: error between the nearest
+The first: time against error of direct sums and of the fast multipole method, beside other programs' where a table of
+theirs is named. The second: error between the nearest
 well-separated boxes against the blobs' size.
 """
 import csv
@@ -17,10 +18,12 @@ import matplotlib.pyplot as plt
 STYLES = {
     "direct_double": ("black", "*", "direct, double"),
     "direct_single": ("gray", "*", "direct, single"),
-    "fmm_harmonic": ("tab:blue", "o", "FMM, harmonic, p beside it"),
+    "fmm_harmonic": ("tab:blue", "o", "FMM by tolerance, order beside it"),
     "fmm_stokeslet": ("tab:orange", "s", "FMM, Stokeslets"),
     "fmm_regularized": ("tab:green", "^", "FMM, regularized"),
 }
+PEERS = {"PVFMM": ("tab:purple", "P"), "DMK": ("tab:brown", "X"), "DMK float": ("tab:pink", "X"), "FMM3D": ("tab:olive", "D")}
+SHAPES = {"straight": "straight tube", "spiral": "coiled tube", "uniform": "cube"}
 NUMBERS = ("nodes", "ms", "error", "eps_over_h", "cutoff", "floor_law", "p")
 
 
@@ -37,6 +40,14 @@ def read_tables(path):
     return rows
 
 
+def draw_peers(axis, rows):
+    """Points of other programs, each beside its own of other settings."""
+    for method, (color, marker) in PEERS.items():
+        points = sorted((row["error"], row["ms"]) for row in rows if row["method"] == method)
+        if points:
+            axis.plot(*zip(*points), marker=marker, color=color, markersize=6, linewidth=0.7, linestyle=":", label=method)
+
+
 def draw_stairs(axis, rows):
     """The fastest that is at least as accurate, from left to right; its method where it changes."""
     best, stairs = float("inf"), []
@@ -50,11 +61,12 @@ def draw_stairs(axis, rows):
                   label="fastest choice")
 
 
-def draw_chart(rows):
-    sizes = sorted({row["nodes"] for row in rows})
-    figure, axes = plt.subplots(1, len(sizes), figsize=(4.2 * len(sizes), 4.5), sharex=True, squeeze=False)
-    for axis, size in zip(axes[0], sizes):
-        here = [row for row in rows if row["nodes"] == size]
+def draw_chart(rows, peers):
+    panels = list(dict.fromkeys((row["shape"], row["nodes"]) for row in rows))
+    figure, axes = plt.subplots(1, len(panels), figsize=(4.2 * len(panels), 4.8), sharex=True, squeeze=False)
+    for axis, panel in zip(axes[0], panels):
+        here = [row for row in rows if (row["shape"], row["nodes"]) == panel]
+        draw_peers(axis, [row for row in peers if (row["shape"], row["nodes"]) == panel])
         for method, (color, marker, label) in STYLES.items():
             points = sorted((row["p"], row["error"], row["ms"]) for row in here if row["method"] == method)
             if not points:
@@ -65,14 +77,14 @@ def draw_chart(rows):
                 if method == "fmm_harmonic":
                     axis.annotate(f"{order:.0f}", (error, ms), fontsize=6, textcoords="offset points", xytext=(-2, -9))
         draw_stairs(axis, here)
-        axis.set(xscale="log", yscale="log", title=f"{size:.0f} nodes", xlabel="relative error", xlim=(3e-16, 0.3))
+        axis.set(xscale="log", yscale="log", title=f"{SHAPES[panel[0]]}, {panel[1]:.0f} nodes", xlabel="relative error", xlim=(3e-16, 0.3))
         axis.grid(alpha=0.3)
     axes[0][0].set_ylabel("ms per evaluation")
     handles = {}
     for axis in axes[0]:
         handles.update({label: handle for handle, label in zip(*axis.get_legend_handles_labels())})
-    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=len(handles), fontsize=8)
-    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    figure.legend(handles.values(), handles.keys(), loc="lower center", ncol=min(len(handles), 6), fontsize=8)
+    figure.tight_layout(rect=(0, 0.09, 1, 1))
     return figure
 
 
@@ -104,14 +116,15 @@ def draw_pair(rows):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) not in (3, 4):
         sys.exit(__doc__)
     rows = read_tables(sys.argv[1])
     charted = [row for row in rows if row.get("method") in STYLES]
     paired = [row for row in rows if "eps_over_h" in row]
     if not charted and not paired:
-        sys.exit(f"{sys.argv[1]}: holds no output of 'bench_fmm chart' or 'bench_fmm pair'")
-    (draw_chart(charted) if charted else draw_pair(paired)).savefig(sys.argv[2], dpi=150)
+        sys.exit(f"{sys.argv[1]}: holds no output of 'bench_chart' or 'bench_fmm pair'")
+    peers = read_tables(sys.argv[3]) if len(sys.argv) == 4 else []
+    (draw_chart(charted, peers) if charted else draw_pair(paired)).savefig(sys.argv[2], dpi=150)
 
 
 if __name__ == "__main__":
