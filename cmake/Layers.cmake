@@ -17,19 +17,27 @@ function(skein_note_sources compiler)
   endforeach()
 endfunction()
 
-# In a build with nvcc these sources go to the host's compiler alone: nvcc is slow, stumbles over toml++'s templates, and
-# has nothing to do where no header of Kokkos is included.
+# How a device's compiler is told that a source is for the host alone; empty in builds for hosts.
+set(skein_host_only)
+if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")
+  set(skein_host_only "--host-only")
+elseif("HIP" IN_LIST Kokkos_DEVICES)
+  set(skein_host_only -x c++)
+endif()
+
+# In a build for a device these sources are compiled for the host alone: nvcc is slow, it and clang's HIP stumble over
+# toml++'s templates, and there is nothing to do where no header of Kokkos is included.
 function(skein_compile_on_host)
   skein_note_sources(host ${ARGN})
-  if(ARGN AND CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper")
-    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS "--host-only")
+  if(ARGN AND skein_host_only)
+    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS ${skein_host_only})
   endif()
 endfunction()
 
-# skein_unite_for_device(<target> [sources that stay by themselves...]): with nvcc, most of whose time goes into reading Kokkos,
+# skein_unite_for_device(<target> [sources that stay by themselves...]): for devices, where most time goes into reading Kokkos,
 # what holds no device code of its own is one translation unit.
 function(skein_unite_for_device target)
-  if(CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper" OR SKEIN_UNITE_LAYERS)
+  if(skein_host_only OR SKEIN_UNITE_LAYERS)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
     if(ARGN)
       set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -42,7 +50,7 @@ option(SKEIN_UNITE_SOURCES "Compile the sources of most layers a dozen at a time
 # For hosts: what a dozen sources include and instantiate alike is compiled once, which saves a quarter of a whole build and
 # costs some seconds where one file changes. Not the pair loops, whose files are large, and not core, which knows the commit.
 function(skein_unite_for_host name)
-  if(SKEIN_UNITE_SOURCES AND NOT CMAKE_CXX_COMPILER MATCHES "nvcc_wrapper" AND NOT name MATCHES "^(core|fmm|analysis|mpi)$")
+  if(SKEIN_UNITE_SOURCES AND NOT skein_host_only AND NOT name MATCHES "^(core|fmm|analysis|mpi)$")
     set_target_properties(skein_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 13)
   endif()
 endfunction()

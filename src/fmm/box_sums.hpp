@@ -47,20 +47,23 @@ SKEIN_FORMULA void add_densities(const Field& field, const LevelOperators<Real>&
   }
 }
 
-/// One row of coefficients with the sign of a reflection. The fourth column of a field that shifts (psi, measured from
-/// the box's centre) is moved to the centre of the other box: to = scale * psi + shift . phi.
+/// A row of coefficients, or a pack of rows, with the sign of a reflection. The fourth column of a field that shifts
+/// (psi, measured from the box's centre) is moved to the centre of the other box: scale * psi + shift . phi.
+template <class Field, class Lanes, class Real>
+SKEIN_FORMULA void move_row(const Lanes sign, const Real scale, const Real (&shift)[3],
+                            Lanes (&row)[Field::n_columns]) {
+  if constexpr (Field::shifts) row[3] = scale * row[3] + shift[0] * row[0] + shift[1] * row[1] + shift[2] * row[2];
+  for (int column = 0; column < Field::n_columns; ++column) row[column] = sign * row[column];
+}
+
+/// The same for one row in memory.
 template <class Field, class Real>
 SKEIN_FORMULA void gather_row(const Real* from, const int stride, const Real sign, const Real scale,
                               const Real (&shift)[3], Real* to, const int to_stride) {
-  if constexpr (Field::shifts) {
-    const Real x = from[0], y = from[stride], z = from[2 * stride], psi = from[3 * stride];
-    to[0] = sign * x;
-    to[to_stride] = sign * y;
-    to[2 * to_stride] = sign * z;
-    to[3 * to_stride] = sign * (scale * psi + shift[0] * x + shift[1] * y + shift[2] * z);
-  } else {
-    for (int column = 0; column < Field::n_columns; ++column) to[column * to_stride] = sign * from[column * stride];
-  }
+  Real row[Field::n_columns];
+  for (int column = 0; column < Field::n_columns; ++column) row[column] = from[column * stride];
+  move_row<Field>(sign, scale, shift, row);
+  for (int column = 0; column < Field::n_columns; ++column) to[column * to_stride] = row[column];
 }
 
 }  // namespace skein

@@ -34,11 +34,16 @@ class HostBatch {
 
   bool is_full() const { return n_pairs_ == capacity; }
 
+  /// @param n_in  a number of whole packs, as all rows of coefficients are
   void add(const Real* from, const int from_stride, const int n_in, const Real* sign_in, const Real scale,
            const Real (&shift)[3], Real* to, const Real* sign_out) {
     Real* const column = in_.data() + n_pairs_ * Field::n_columns * in_stride_;
-    for (int i = 0; i < n_in; ++i)
-      gather_row<Field>(from + i, from_stride, sign_in[i], scale, shift, column + i, in_stride_);
+    for (int i = 0; i < n_in; i += simd::width<Real>) {
+      Pack<Real> rows[Field::n_columns];
+      for (int c = 0; c < Field::n_columns; ++c) rows[c] = simd::load_pack(from + c * from_stride + i);
+      move_row<Field>(simd::load_pack(sign_in + i), scale, shift, rows);
+      for (int c = 0; c < Field::n_columns; ++c) simd::store_pack(column + c * in_stride_ + i, rows[c]);
+    }
     to_[n_pairs_] = to;
     sign_out_[n_pairs_++] = sign_out;
   }
