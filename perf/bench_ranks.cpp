@@ -1,12 +1,12 @@
 // Sums that ranks share, by the wall time of rank 0, and what it takes of each rank. By itself, or under mpirun.
 // Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run] [repeats=N] [tiny]
-// `run` takes steps of RKC2 with the fiber of 23 634 nodes, for a table of its own: seconds an evaluation by part.
+// `run` takes steps of RKC2 with the fiber of 23 634 nodes, for a table of its own: seconds an evaluation by part, of
+// which the flow is that of one rank's nodes, and `alone` what rank 0 does for all nodes at the end of a step. Lines of
+// `whole` are of steps whose nodes are all rank 0's, taken in turns with the others.
 // A line of each sum: ranks, threads, nodes, seconds (fastest and median), work and waiting of the busiest rank, and
 // bytes.
 
 #include <skein/arrays/runtime.hpp>
-#include <skein/dynamics/fiber_dynamics.hpp>
-#include <skein/dynamics/make_integrator.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 #include <skein/physics/sum_team.hpp>
@@ -14,6 +14,7 @@
 #include "harness.hpp"
 #include "mpi/launch.hpp"
 #include "node_arrangements.hpp"
+#include "rank_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +28,6 @@ namespace skein {
 namespace {
 
 constexpr double viscosity = 1.0;
-
-template <class Function>
-double time_call(const Function& function) {
-  const auto start = std::chrono::steady_clock::now();
-  function();
-  Kokkos::fence();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 struct Problem {
   std::string name;
@@ -66,7 +59,7 @@ void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const in
   FmmStatistics statistics;  // of the fastest
   std::vector<double> seconds;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    seconds.push_back(time_call(sum));
+    seconds.push_back(perf::time_call(sum));
     if (fmm != nullptr && seconds.back() <= *std::min_element(seconds.begin(), seconds.end()))
       statistics = fmm->statistics();
   }
@@ -92,63 +85,6 @@ void measure_fmm(const Problem& problem, SumTeam* team, const int repeats) {
   options.tolerance = 1e-4;
   FmmMobility mobility(viscosity, options, team);
   measure(problem, mobility, team, repeats);
-}
-
-/// The parts of an evaluation in steps, of which rank 0 knows the time; the fastest of some runs of ten steps.
-void measure_steps(const int sections, SumTeam* team, const int repeats) {
-  SceneConfig scene;
-  FiberConfig& fiber = scene.fibers.emplace_back();
-  fiber.sections = sections;
-  fiber.start_noise = 1e-11;
-  scene.flows.emplace_back().rate = 2.5;
-  scene.hydrodynamics.method = SumMethod::fmm;
-  scene.hydrodynamics.tolerance = 1e-4;
-  scene.hydrodynamics.check_every = 0;
-  scene.time.method = TimeMethod::rkc2;
-  scene.time.tolerance = 1e-4;
-  Physics physics = make_physics(scene, team);
-  FiberDynamics dynamics(physics);
-  const auto integrator = make_integrator(scene, physics, dynamics);
-  State state{0.0, 0, to_device("skein::bench_ranks::position", physics.make_start_nodes(1))};
-  for (int step = 0; step < 3; ++step) integrator->advance(state, 1.0);
-  // Rank 0's alone, as what the integrator does.
-  const Vectors flow("skein::bench_ranks::flow", state.position.extent(0));
-  double flow_seconds = 1e300;
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    const double last = time_call([&] { physics.flow->compute_velocity(state.time, state.position, flow); });
-    flow_seconds = std::min(flow_seconds, last);
-  }
-  dynamics.time_parts(true);
-  double fastest = 1e300;
-  FiberDynamics::Seconds parts;
-  RankTraffic traffic;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    const FiberDynamics::Seconds before = dynamics.seconds();
-    const RankTraffic sent = team != nullptr ? team->ranks().traffic() : RankTraffic{};
-    const std::int64_t evaluations = dynamics.evaluations();
-    const double of_all = time_call([&] {
-      for (int step = 0; step < (sections < 1000 ? 1 : 10); ++step) integrator->advance(state, 1.0);
-    });
-    const auto n = static_cast<double>(dynamics.evaluations() - evaluations);
-    const double seconds = of_all / n;
-    if (seconds >= fastest) continue;
-    fastest = seconds;
-    parts = {(dynamics.seconds().fluid - before.fluid) / n,
-             (dynamics.seconds().springs_and_flow - before.springs_and_flow) / n};
-    if (team == nullptr) continue;
-    const RankTraffic now = team->ranks().traffic();
-    traffic = {(now.broadcast_bytes - sent.broadcast_bytes) / n, (now.gathered_bytes - sent.gathered_bytes) / n,
-               (now.exchanged_bytes - sent.exchanged_bytes) / n, (now.shared_bytes - sent.shared_bytes) / n};
-  }
-  std::printf(
-      "steps,ranks,threads,nodes,evaluation_s,sum_s,forces_s,flow_s,integrator_s,broadcast_B,shared_B,exchanged_B,"
-      "gathered_B\n");
-  std::printf("steps,%d,%d,%d,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g\n",
-              team != nullptr ? team->ranks().size() : 0, HostSpace().concurrency(), state.position.extent_int(0),
-              fastest, parts.fluid, parts.springs_and_flow - flow_seconds, flow_seconds,
-              fastest - parts.fluid - parts.springs_and_flow, traffic.broadcast_bytes, traffic.shared_bytes,
-              traffic.exchanged_bytes, traffic.gathered_bytes);
-  std::fflush(stdout);
 }
 
 void run(const std::vector<std::string>& parts, SumTeam* team) {
@@ -178,7 +114,7 @@ void run(const std::vector<std::string>& parts, SumTeam* team) {
     const Problem problem("fiber", perf::make_straight(n_fiber), perf::fiber_blob);
     measure_fmm(problem, team, repeats(60));
   }
-  if (tiny || asked("run")) measure_steps(tiny ? 120 : 1313, team, repeats(10));
+  if (tiny || asked("run")) perf::measure_steps(tiny ? 120 : 1313, team, repeats(60));
   if (tiny || asked("cube")) {
     const Problem problem("cube", perf::make_uniform(n_cube), 0.1 / std::cbrt(n_cube));
     measure_fmm(problem, team, repeats(std::clamp(4000000 / n_cube, 3, 40)));

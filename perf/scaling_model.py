@@ -4,18 +4,20 @@
 Usage: for n in 1 2 4; do mpirun -n $n bench_ranks run cube only=200000; done > ranks.csv
        scaling_model.py ranks.csv ranks.png
 
-One thread a rank. Lines of several numbers of nodes may stand behind each other. From the lines of one rank come the seconds
+One thread a rank. Of lines of several numbers of nodes those of the largest cube count. From the lines of one rank come the seconds
 a node of each part, from all lines bytes and messages. A rank of the model is a node of CORES cores that share its part; what
 is assumed beyond the measurements is said below and in the picture:
 
-  shared      near field, far field, sorting, forces: seconds of one rank / ranks / cores
+  shared      near field, far field, sorting, forces, flow, integrator: seconds of one rank / ranks / cores
   replicated  the tree, which every rank builds: half of it serial; in a step it serves KEPT sums
   top         boxes above several ranks, made by all: (ranks - 1) boxes a level
-  leader      flow and integrator, rank 0's alone
-  network     bytes by rank 0's link, which is the busiest: a broadcast passes it once for two ranks, nearly twice for more
-              (a part to each, which gives it to all others), a gather, also to all, once but for its own part; coefficients
-              as fitted. Arrays take two latencies each, as the receiver is asked first; orders travel with them. Sums by
-              themselves broadcast positions and forces; in a run forces are gathered to all.
+  leader      the end of a step, rank 0's alone: the search for faults and a copy of the state
+  network     bytes by rank 0's link, which is the busiest: a gather, also to all, passes it once but for the rank's own part;
+              coefficients as fitted. In a run positions and forces are gathered to all, velocities go to the ranks that own the
+              nodes (all but one of as many parts of a rank's, if nodes and leaves have nothing to do with each other), and
+              rank 0 gathers what a checkpoint takes, once a step. Sums by themselves broadcast positions and forces, which
+              pass the link once for two ranks, nearly twice for more (a part to each, which gives it to all others), and
+              gather velocities. Arrays take two latencies each, as the receiver is asked first; orders travel with them.
 perf/shaped_network.py compares this with networks that are slow enough to be made on one machine.
 """
 import csv
@@ -32,6 +34,8 @@ LATENCY = 2e-6  # seconds a message
 BANDWIDTH = 1e10  # bytes / second, of a node's link, each way
 SENDING = 5e-7  # seconds that rank 0 takes for a message to or from each other rank
 ORDERS = 2.0  # of the messages of a sum
+ORDERS_IN_RUN = 3.0  # of an evaluation's
+VECTOR = 24.0  # bytes a node
 SERIAL_TREE = 0.5  # of building a tree
 KEPT = 8.0  # sums that a tree serves in a run (docs/hydrodynamics.md)
 PARTS = ("shared", "replicated", "top", "leader", "network")
@@ -39,14 +43,15 @@ COLORS = dict(zip(PARTS, ("tab:blue", "tab:orange", "tab:red", "tab:purple", "ta
 
 
 def read_rows(path):
-    rows, steps, names = [], [], None
+    rows, steps, names = [], [], {}
     with open(path, encoding="utf-8") as file:
         for row in csv.reader(line for line in file if "," in line and not line.startswith("#")):
             if row[1] == "ranks":
-                names = row
-            elif names and row[0] in ("cube", "steps") and len(row) == len(names):
-                numbers = {name: float(value) for name, value in list(zip(names, row))[1:]}
+                names["cube" if row[0] == "sum" else row[0]] = row
+            elif len(row) == len(names.get(row[0], [])):
+                numbers = {name: float(value) for name, value in list(zip(names[row[0]], row))[1:]}
                 (rows if row[0] == "cube" else steps).append(numbers)
+    rows = [row for row in rows if row["nodes"] == max(row["nodes"] for row in rows)]
     if not any(row["ranks"] == 1 for row in rows) or not any(row["ranks"] > 1 for row in rows):
         sys.exit("scaling_model.py: lines of the cube on one rank and on several are needed")
     return rows, steps
@@ -61,7 +66,8 @@ class Model:
         self.tree = per_node("tree_s")
         alone = [row for row in steps if row["ranks"] == 1]
         of_steps = lambda *names: float(np.mean([sum(row[name] for name in names) / row["nodes"] for row in alone])) if alone else 0.0
-        self.forces, self.leader = of_steps("forces_s"), of_steps("flow_s", "integrator_s")
+        self.leader = of_steps("alone_s")
+        self.owned = of_steps("forces_s", "flow_s", "integrator_s") - self.leader
         self.far_box = float(np.mean([row["far_s"] / row["boxes"] for row in one]))
         self.box_nodes = float(np.mean([row["nodes"] / row["boxes"] for row in one]))
         # Boxes at the surface of a part: so many bytes for (nodes a rank)^(2/3).
@@ -70,22 +76,28 @@ class Model:
         self.gather = float(np.mean([row["gathered_B"] / row["nodes"] for row in several]))
         self.messages = {n: float(np.mean([row["messages"] for row in several if row["ranks"] == n]))
                          for n in sorted({row["ranks"] for row in several})}
+        shared_steps = [row for row in steps if row["ranks"] > 1]
+        self.kept = float(np.mean([row["gathered_B"] / row["nodes"] for row in shared_steps])) if shared_steps else 0.0
+        self.run_messages = float(np.mean([row["messages"] for row in shared_steps])) if shared_steps else 0.0
 
     def network(self, n, ranks, latency, bandwidth, in_run):
         if ranks == 1:
             return 0.0
         others = (ranks - 1) / ranks
-        broadcast, to_all = (0.5 * self.broadcast, 0.5 * self.broadcast) if in_run else (self.broadcast, 0.0)
-        by_link = broadcast * (1.0 if ranks == 2 else 2.0 * others) + (self.gather + to_all) * others
-        # Of the largest number of ranks that was measured, if not of this one.
-        messages = self.messages.get(float(ranks), list(self.messages.values())[-1])
+        if in_run:
+            by_link = (2.0 * VECTOR + VECTOR / ranks + self.kept) * others
+            messages, orders = self.run_messages, ORDERS_IN_RUN
+        else:
+            by_link = self.broadcast * (1.0 if ranks == 2 else 2.0 * others) + self.gather * others
+            # Of the largest number of ranks that was measured, if not of this one.
+            messages, orders = self.messages.get(float(ranks), list(self.messages.values())[-1]), ORDERS
         bytes_moved = by_link * n + self.surface * (n / ranks) ** (2 / 3)
-        return bytes_moved / bandwidth + 2.0 * (messages - ORDERS) * latency + messages * (ranks - 1) * SENDING
+        return bytes_moved / bandwidth + 2.0 * (messages - orders) * latency + messages * (ranks - 1) * SENDING
 
     def seconds(self, n, ranks, cores=CORES, latency=LATENCY, bandwidth=BANDWIDTH, kept=KEPT, in_run=True):
         levels = max(1.0, np.log(n / self.box_nodes) / np.log(8.0))
         return {
-            "shared": (self.shared + (self.forces if in_run else 0.0)) * n / ranks / cores,
+            "shared": (self.shared + (self.owned if in_run else 0.0)) * n / ranks / cores,
             "replicated": self.tree / kept * n * (SERIAL_TREE + (1.0 - SERIAL_TREE) / cores),
             "top": self.far_box * (ranks - 1) * levels / cores,
             "leader": self.leader * n / cores if in_run else 0.0,
@@ -135,9 +147,9 @@ def draw(model, path):
 def main():
     rows, steps = read_rows(sys.argv[1])
     model = Model(rows, steps)
-    print(f"a node: shared {model.shared:.3g} s, forces {model.forces:.3g} s, tree {model.tree:.3g} s, rank 0's alone "
+    print(f"a node: shared {model.shared:.3g} s, forces, flow and integrator {model.owned:.3g} s, tree {model.tree:.3g} s, rank 0's alone "
           f"{model.leader:.3g} s, broadcast {model.broadcast:.3g} and gathered "
-          f"{model.gather:.3g} bytes; {list(model.messages.values())[-1]:.3g} messages a sum; exchanged {model.surface:.3g} bytes (N / ranks)^(2/3)")
+          f"{model.gather:.3g} bytes, in a run {model.kept:.3g}; {list(model.messages.values())[-1]:.3g} messages a sum; exchanged {model.surface:.3g} bytes (N / ranks)^(2/3)")
     compare(model, rows)
     draw(model, sys.argv[2])
 

@@ -11,8 +11,8 @@ namespace {
 /// they leave.
 template <class Space>
 int choose_chunk(const int n_nodes) {
-  constexpr int most_nodes = 256, fewest_nodes = 16, most_chunks = 4096;
-  if (on_host<Space>) return most_nodes;
+  constexpr int most_nodes = host_chunk_nodes, fewest_nodes = 16, most_chunks = 4096;
+  if (on_host<Space>) return host_chunk_nodes;
   return math::smaller(most_nodes, math::larger(fewest_nodes, math::ceil_div(n_nodes, most_chunks)));
 }
 
@@ -68,7 +68,7 @@ void combine(const Space& space, const VectorView<Space>& result, const Term<Spa
 }
 
 template <class Space>
-double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
+std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
   SKEIN_REQUIRE(a.extent(0) == b.extent(0), "arrays of a dot product differ in length");
   const int n_nodes = a.extent_int(0), chunk_nodes = choose_chunk<Space>(a.extent_int(0));
   const int n_chunks = math::ceil_div(n_nodes, chunk_nodes);
@@ -83,17 +83,23 @@ double dot_product(const Space& space, const ConstVectorView<Space>& a, const Co
       });
   const auto on_host =
       Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), Kokkos::subview(chunk_sum, std::make_pair(0, n_chunks)));
+  return std::vector<double>(on_host.data(), on_host.data() + n_chunks);
+}
+
+template <class Space>
+double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
   double total = 0.0;
-  for (int chunk = 0; chunk < n_chunks; ++chunk) total += on_host(chunk);
+  for (const double of_chunk : dot_chunks<Space>(space, a, b)) total += of_chunk;
   return total;
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                               \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&, \
-                           const Term<S>&);                                                                \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&, \
-                           const Term<S>&, const Term<S>&);                                                \
+#define SKEIN_INSTANTIATE(S)                                                                                  \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                   \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,    \
+                           const Term<S>&);                                                                   \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,    \
+                           const Term<S>&, const Term<S>&);                                                   \
+  template std::vector<double> dot_chunks<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&); \
   template double dot_product<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

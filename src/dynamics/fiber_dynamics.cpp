@@ -1,4 +1,5 @@
 #include <skein/dynamics/fiber_dynamics.hpp>
+#include <skein/physics/shared_nodes.hpp>
 
 #include <fmt/format.h>
 
@@ -51,6 +52,12 @@ FiberDynamics::FiberDynamics(Physics& physics)
 void FiberDynamics::compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) {
   ++evaluations_;
   PartsTimer timer(times_parts_, seconds_);
+  if (has_parts(position)) {
+    SharedNodes& nodes = *physics_.shared_nodes;
+    const Sources sources = nodes.compute_forces(physics_, time, position, velocity, force_);
+    timer.begin_fluid();
+    return nodes.add_velocity(physics_, sources, velocity);
+  }
   ConstVectors places = position;
   if (!physics_.rigid_bodies.is_empty()) {
     motion_.compute_places(position, places_);
@@ -91,17 +98,32 @@ Linearization* FiberDynamics::linearization() {
   return linearization_.get();
 }
 
+bool FiberDynamics::has_parts(const ConstVectors& vectors) const {
+  return physics_.shared_nodes != nullptr && physics_.shared_nodes->have_made(vectors);
+}
+
+NodeVectors& FiberDynamics::vectors() {
+  if (physics_.shared_nodes != nullptr && physics_.shared_nodes->serve(physics_)) return *physics_.shared_nodes;
+  return whole_vectors();
+}
+
+/// Rank 0 seeks faults among all nodes: it has their positions since they were evaluated.
+ConstVectors FiberDynamics::all_of(const ConstVectors& position) const {
+  return has_parts(position) ? physics_.shared_nodes->gather_whole(position) : position;
+}
+
 void FiberDynamics::seek_fault(const ConstVectors& position) {
-  physics_.sections.seek_faulty_node(position, burst_ratio);
+  physics_.sections.seek_faulty_node(all_of(position), burst_ratio);
   sought_ = position;
 }
 
 std::string FiberDynamics::find_fault(const ConstVectors& position) const {
   const bool is_sought = sought_.data() != nullptr && sought_.data() == position.data();
   sought_ = {};
+  const ConstVectors all = all_of(position);
   const int node =
-      is_sought ? physics_.sections.found_faulty_node() : physics_.sections.find_faulty_node(position, burst_ratio);
-  return node < 0 ? std::string() : describe_fault(position, node);
+      is_sought ? physics_.sections.found_faulty_node() : physics_.sections.find_faulty_node(all, burst_ratio);
+  return node < 0 ? std::string() : describe_fault(all, node);
 }
 
 std::string FiberDynamics::describe_fault(const ConstVectors& position, const int node) const {

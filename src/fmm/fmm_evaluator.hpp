@@ -10,6 +10,8 @@
 #include "fmm/tree_fit.hpp"
 #include "fmm/tree_tasks.hpp"
 
+#include <utility>
+
 namespace skein {
 
 /// An evaluation of the fast multipole method in the memory of Workers::Space: tree, sorted nodes, passes, leaves.
@@ -118,7 +120,10 @@ bool FmmEvaluator<Workers>::compute(const FmmOptions& options, const FmmPlan& ch
   else
     add_in<double>(options, plan, in_double_);
   if constexpr (on_host<Space>) {
-    if (ranks_ != nullptr) exchange_.gather_velocities(tree_, own_velocity_);
+    if (ranks_ != nullptr && owners.count.empty())
+      exchange_.gather_velocities(tree_, own_velocity_);
+    else if (ranks_ != nullptr)
+      exchange_.deliver_velocities(tree_, owners, own_velocity_);
   }
   return true;
 }
@@ -244,7 +249,13 @@ void FmmEvaluator<Workers>::count_work() {
 
 template <class Workers>
 void FmmEvaluator<Workers>::add_to(const Vectors& velocity) const {
-  const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), own_velocity_);
+  VectorView<Space> here = own_velocity_;
+  if (!owners.count.empty()) {
+    const auto rank = static_cast<std::size_t>(ranks_->rank());
+    here = Kokkos::subview(own_velocity_, std::make_pair(owners.first[rank], owners.first[rank] + owners.count[rank]),
+                           Kokkos::ALL());
+  }
+  const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), here);
   combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, own});
 }
 

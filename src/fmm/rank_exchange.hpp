@@ -19,11 +19,19 @@ class RankExchange {
   void exchange_coefficients(const Coefficients<HostSpace, Real>& coefficients);
   /// Own targets' velocities to rank 0.
   void gather_velocities(const HostOctree& tree, const HostVectors& velocity);
+  /// The same to the ranks that own the targets.
+  void deliver_velocities(const HostOctree& tree, const RankParts& owners, const HostVectors& velocity);
 
  private:
   Communicator* ranks_ = nullptr;
+  void list_deliveries(const HostOctree& tree, const RankParts& owners);
+
   RankShares shares_;
   std::vector<double> send_, receive_;
+  /// Own targets in the order of those that own them, and owned ones in the order of those that sum them; of the tree.
+  std::vector<int> sent_targets_, received_targets_;
+  std::vector<std::size_t> n_sent_, n_received_;  ///< [n_ranks], numbers; empty: to be listed
+  std::vector<std::size_t> listed_for_;           ///< counts of the owners
 };
 
 }  // namespace skein

@@ -1,5 +1,7 @@
 #include "fmm/sorted_nodes.hpp"
 
+#include <skein/fmm/even_sample.hpp>
+
 namespace skein {
 
 template <class Space>
@@ -41,11 +43,25 @@ void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNod
         KOKKOS_LAMBDA(const int i) { store(to.target, i, load(from.target, target_order(i))); });
 }
 
+template <class Space>
+std::vector<Vec3> read_sample(const Space& space, const ConstVectorView<Space>& vectors, const EvenSample& sample) {
+  const VectorView<Space> chosen("skein::even_sample::sample", sample.n_chosen);
+  Kokkos::parallel_for(
+      "skein::read_sample", Kokkos::RangePolicy<Space>(space, 0, sample.n_chosen),
+      KOKKOS_LAMBDA(const int i) { store(chosen, i, load(vectors, sample.index(i))); });
+  space.fence();
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), chosen);
+  std::vector<Vec3> list;
+  for (int i = 0; i < sample.n_chosen; ++i) list.push_back(load(host, i));
+  return list;
+}
+
 #define SKEIN_INSTANTIATE(S)                                                                                       \
   template double SortedNodes<S>::bytes() const;                                                                   \
   template void require_nodes<S>(const Octree<S>&, SortedNodes<S>&);                                               \
   template void sort_nodes<S>(const S&, const Octree<S>&, const UnsortedNodes<S>&, double, IndexRange, IndexRange, \
-                              const SortedNodes<S>&);
+                              const SortedNodes<S>&);                                                              \
+  template std::vector<Vec3> read_sample<S>(const S&, const ConstVectorView<S>&, const EvenSample&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -17,20 +17,19 @@ namespace skein {
 class DirectShare {
  public:
   /// To be called by all ranks with the same arguments. @param velocity  of rank 0: the sum is added to it
+  /// @param owners  of the targets, who get the sums at theirs: velocity is [owners->count[rank], 3]; null: rank 0
   void add_velocity(Communicator& ranks, const Sources& sources, const ConstVectors& target, const Vectors& velocity,
-                    double viscosity, Precision precision, bool by_teams);
+                    double viscosity, Precision precision, bool by_teams, const RankParts* owners = nullptr);
 
   /// Of the last sum, in words.
   const std::string& partition() const { return partition_; }
 
  private:
   void add_for_targets(Communicator& ranks, const Sources& sources, const ConstVectors& target, const Vectors& velocity,
-                       double viscosity, Precision precision, bool by_teams);
+                       double viscosity, Precision precision, bool by_teams, const RankParts* owners);
   template <class Space>
   void add_in_rounds(const Space& space, Communicator& ranks, const Sources& sources, const Vectors& velocity,
-                     double viscosity, Precision precision);
-  /// The numbers of all ranks are there, x, y and z of each rank's nodes behind each other.
-  void use_numbers(const std::vector<int>& first_node, const Vectors& velocity);
+                     double viscosity, Precision precision, const RankParts* owners);
 
   Scalars partial_;                            ///< scratch of the teams
   std::vector<HostVectors> blocks_, scratch_;  ///< what own blocks of rounds contribute to all nodes

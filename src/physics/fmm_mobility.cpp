@@ -58,6 +58,7 @@ double norm_at(const Vectors& velocity, const EvenSample& sample) {
 FmmMobility::FmmMobility(const double viscosity, const FmmOptions& options, SumTeam* team)
     : viscosity_(viscosity),
       options_(options),
+      team_(team),
       direct_(viscosity, options.precision, options.path, team),
       direct_in_single_(viscosity, Precision::in_single, options.path, team),
       sum_(team == nullptr ? make_fmm_sum(options.path) : team->make_fmm_sum(options.path)) {
@@ -125,6 +126,7 @@ bool FmmMobility::evaluate(const FmmTargets targets) {
 bool FmmMobility::passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   const EvenSample sample(target.extent_int(0), options_.n_checked_targets);
   const Comparison comparison = compare(viscosity_, sources, target, *sum_, sample);
+  if (team_ != nullptr) team_->complete(velocity);
   if (comparison.difference < rounding * norm_at(velocity, sample)) return true;
   note_check(comparison.relative());
   if (!(record_.last > options_.tolerance)) return true;  // not a number: the time step finds out and names the node

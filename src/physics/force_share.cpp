@@ -36,6 +36,7 @@ ForceShare::ForceShare(const SceneConfig& asked, const int n_ranks) {
   const SceneConfig scene = resolve_chains(asked);
   const std::vector<Fiber> fibers = make_fibers(scene.fibers);
   forces = make_forces(scene, fibers);
+  flow = make_background_flow(scene.flows);
   nodes = share_nodes(fibers, n_ranks);
 }
 
@@ -60,33 +61,37 @@ void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const Forc
   ranks.end_work();
 }
 
-SharedForces::SharedForces(Communicator& ranks, HeldNodes& held, std::set<int>& numbers, const SceneConfig& scene,
+SharedForces::SharedForces(TeamLink& link, std::set<int>& numbers, const SceneConfig& scene,
                            const std::vector<Fiber>& fibers, const ForceList& forces)
-    : ranks_(ranks), held_(held), numbers_(numbers), nodes_(share_nodes(fibers, ranks.size())) {
+    : link_(link), numbers_(numbers), nodes_(share_nodes(fibers, link.ranks.size())) {
   for (const auto& force : forces) known_.push_back(force.get());
   while (!numbers_.insert(order_.scene).second) ++order_.scene;
   order_.kind = SumOrder::Kind::know_scene;
   std::string text = write_readable_scene(scene);
   order_.n_bytes = text.size();
-  ranks_.broadcast(&order_, sizeof order_);
-  ranks_.broadcast(text.data(), text.size());
+  link_.send(order_);
+  link_.ranks.broadcast(text.data(), text.size());
 }
 
 SharedForces::~SharedForces() { numbers_.erase(order_.scene); }
 
+bool SharedForces::know(const ForceList& forces) const {
+  const auto is_same = [](const auto& there, const Force* known) { return there.get() == known; };
+  return std::equal(forces.begin(), forces.end(), known_.begin(), known_.end(), is_same);
+}
+
 bool SharedForces::compute(const ForceList& forces, const double time, const ConstVectors& position,
                            const ConstVectors& displacement, const Vectors& force) {
-  held_ = {};
-  const auto is_same = [](const auto& there, const Force* known) { return there.get() == known; };
-  if (!std::equal(forces.begin(), forces.end(), known_.begin(), known_.end(), is_same)) return false;
+  link_.held = {};
+  if (!know(forces)) return false;
   order_.kind = displacement.is_allocated() ? SumOrder::Kind::compute_force_changes : SumOrder::Kind::compute_forces;
   order_.time = time;
   order_.n_sources = position.extent_int(0);
-  ranks_.broadcast(&order_, sizeof order_);
-  send_vectors(ranks_, position);
-  if (displacement.is_allocated()) send_vectors(ranks_, displacement);
-  ForceShare::compute(ranks_, nodes_, forces, time, position, displacement, force);
-  held_ = {position.data(), force.data(), position.extent_int(0)};
+  link_.send(order_);
+  send_vectors(link_.ranks, position);
+  if (displacement.is_allocated()) send_vectors(link_.ranks, displacement);
+  ForceShare::compute(link_.ranks, nodes_, forces, time, position, displacement, force);
+  link_.held = {position.data(), force.data(), position.extent_int(0)};
   return true;
 }
 

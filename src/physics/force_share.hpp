@@ -1,11 +1,13 @@
 #pragma once
 
+#include <skein/physics/background_flow.hpp>
 #include <skein/physics/sum_team.hpp>
 #include <skein/scene/scene_config.hpp>
 
 #include "force_table.hpp"
 #include "sum_order.hpp"
 
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,6 +18,7 @@ namespace skein {
 struct ForceShare {
   ForceList forces;
   RankParts nodes;
+  std::unique_ptr<BackgroundFlow> flow;
 
   explicit ForceShare(const SceneConfig& asked, int n_ranks);
 
@@ -34,9 +37,9 @@ class SharedForces {
  public:
   /// Tells the others of the scene. @param forces  that make_forces has made of it
   /// @throws Error(scene_error) where the scene's text could not be read by them
-  /// @param held, numbers  of the team: what the others hold, and scenes that there are
-  SharedForces(Communicator& ranks, HeldNodes& held, std::set<int>& numbers, const SceneConfig& scene,
-               const std::vector<Fiber>& fibers, const ForceList& forces);
+  /// @param link, numbers  of the team, and scenes that there are
+  SharedForces(TeamLink& link, std::set<int>& numbers, const SceneConfig& scene, const std::vector<Fiber>& fibers,
+               const ForceList& forces);
   ~SharedForces();
   SharedForces(const SharedForces&) = delete;
   SharedForces& operator=(const SharedForces&) = delete;
@@ -45,9 +48,12 @@ class SharedForces {
   bool compute(const ForceList& forces, double time, const ConstVectors& position, const ConstVectors& displacement,
                const Vectors& force);
 
+  bool know(const ForceList& forces) const;
+  int scene() const { return order_.scene; }
+  const RankParts& nodes() const { return nodes_; }
+
  private:
-  Communicator& ranks_;
-  HeldNodes& held_;
+  TeamLink& link_;
   std::set<int>& numbers_;
   std::vector<const Force*> known_;
   RankParts nodes_;

@@ -12,7 +12,7 @@ namespace skein {
 using ForceList = std::vector<std::unique_ptr<Force>>;
 
 // Every kind of force: what a scene asks for of it is appended to the list, or nothing. A new kind is a source of its
-// own, a line here and a row in force_table.cpp.
+// own, a line here and a row in physics.cpp.
 void append_springs(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_bending(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);
 void append_shear_couple(const SceneConfig& scene, const std::vector<Fiber>& fibers, ForceList& forces);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace skein {
@@ -37,6 +38,28 @@ std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::sha
 }
 
 }  // namespace
+
+void Force::add_moments(const std::vector<Fiber>& fibers, const double time, const ConstVectors& position,
+                        std::vector<SymmetricTensor>& moment) const {
+  const Vectors force("skein::Force::moment", position.extent(0));
+  add_forces(time, position, force);
+  const std::vector<Vec3> x = to_host(position), f = to_host(ConstVectors(force));
+  for (std::size_t i = 0; i < fibers.size(); ++i) {
+    const auto first = static_cast<std::size_t>(fibers[i].first_node),
+               n = static_cast<std::size_t>(fibers[i].n_nodes());
+    const SymmetricTensor part =
+        compute_symmetric_moment(std::span(x).subspan(first, n), std::span(f).subspan(first, n));
+    for (std::size_t c = 0; c < part.size(); ++c) moment[i][c] += part[c];
+  }
+}
+
+ForceList make_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers) {
+  ForceList forces;
+  for (const auto append : {append_springs, append_bending, append_shear_couple, append_repulsion, append_gravity,
+                            append_tethers, append_torques, append_undulations, append_clamps})
+    append(scene, fibers, forces);
+  return forces;
+}
 
 void Physics::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
   if (shared_forces != nullptr && shared_forces->compute(forces, time, position, {}, force)) return;
@@ -103,16 +126,19 @@ Physics make_physics(const SceneConfig& asked, SumTeam* team) {
   Scalars blob = to_device("skein::Physics::blob", make_blobs(fibers));
   std::vector<std::unique_ptr<Force>> forces = make_forces(scene, fibers);
   std::shared_ptr<SharedForces> shared_forces = team == nullptr ? nullptr : team->share_forces(scene, fibers, forces);
+  std::unique_ptr<BackgroundFlow> flow = make_background_flow(scene.flows);
+  std::shared_ptr<SharedNodes> shared_nodes = team == nullptr ? nullptr : team->share_nodes(shared_forces, *flow);
   return {.fibers = std::move(fibers),
           .forces = std::move(forces),
-          .flow = make_background_flow(scene.flows),
+          .flow = std::move(flow),
           .mobility = make_mobility(scene, symmetry, team),
           .rigid_bodies = std::move(rigid_bodies),
           .sections = std::move(sections),
           .blob = blob,
           .viscosity = scene.fluid.viscosity,
           .symmetry = std::move(symmetry),
-          .shared_forces = std::move(shared_forces)};
+          .shared_forces = std::move(shared_forces),
+          .shared_nodes = std::move(shared_nodes)};
 }
 
 }  // namespace skein

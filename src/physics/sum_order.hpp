@@ -4,10 +4,26 @@
 #include <skein/fmm/fmm_plan.hpp>
 #include <skein/ranks/communicator.hpp>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <type_traits>
+#include <vector>
 
 namespace skein {
+
+/// What each rank does with its parts of some arrays, of which rank 0 says the numbers.
+struct PartWork {
+  enum class Kind { make, drop, copy, combine, add_fmm_sum };
+  static constexpr int most_terms = 5;
+  Kind kind = Kind::make;
+  int scene = 0;  ///< whose nodes they are on
+  int result = 0;
+  int n_terms = 0;              ///< combine; copy has one
+  int source[most_terms] = {};  ///< arrays; of add_fmm_sum the sum
+  double factor[most_terms] = {};
+};
 
 /// What rank 0 wants of the others, sent as bytes; arrays follow where the kind has some.
 struct SumOrder {
@@ -19,14 +35,22 @@ struct SumOrder {
     compute_force_changes,
     add_direct,
     take_nodes,
-    compute_fmm
+    compute_fmm,
+    sample_fmm,
+    work_on_parts,
+    evaluate,
+    norm_of_parts,
+    gather_parts,
+    scatter_parts
   };
   Kind kind = Kind::dismiss;
   int exit_code = 0;  ///< dismiss
 
-  int scene = 0;            ///< know_scene, compute_forces, compute_force_changes: which of the run's
+  /// know_scene, compute_forces, compute_force_changes, and whose arrays are meant, or whose ranks own the targets:
+  /// which of the run's
+  int scene = 0;
   std::size_t n_bytes = 0;  ///< know_scene: of its text
-  double time = 0.0;        ///< compute_forces, compute_force_changes
+  double time = 0.0;        ///< compute_forces, compute_force_changes, evaluate
 
   int n_sources = 0, n_targets = 0;  ///< add_direct, take_nodes, and those that compute forces
   bool are_held = false;             ///< positions and forces of the sources are those of the order before
@@ -43,6 +67,20 @@ struct SumOrder {
   bool is_in_step = false;
   FmmOptions options;  ///< compute_fmm
   FmmPlan plan;
+
+  bool is_delivered = false;        ///< add_direct, compute_fmm: to the ranks that own the targets, not to rank 0
+  int array = 0;                    ///< evaluate: positions; norm_of_parts, gather_parts, scatter_parts
+  int velocity = 0;                 ///< evaluate, and add_direct that is delivered: an array
+  int n_sampled = 0, n_chosen = 0;  ///< sample_fmm
+
+  /// Before the order itself is obeyed.
+  static constexpr int most_works = 8;
+  std::size_t n_works = 0;
+  PartWork works[most_works];
+  void take_works(const PartWork* first, const std::size_t n) {
+    n_works = n;
+    std::copy_n(first, n, works);
+  }
 };
 static_assert(std::is_trivially_copyable_v<SumOrder>);
 
@@ -65,9 +103,37 @@ struct HeldNodes {
   }
 };
 
+/// A sum in work whose targets are nodes that ranks own: each gets the velocities of its own.
+struct Delivery {
+  const RankParts& owners;
+  int scene = 0;
+  int velocity = 0;                ///< the array that it is added to
+  Vectors room;                    ///< [n_nodes, 3], what the mobility is given for it: rank 0's own nodes are first
+  std::function<void()> complete;  ///< makes the others' rows there what they were if rank 0 had all
+  bool is_done = false;
+
+  Vectors own_rows() const;
+};
+
+/// Rank 0's side of what the others are told.
+struct TeamLink {
+  explicit TeamLink(Communicator& communicator) : ranks(communicator) {}
+
+  Communicator& ranks;
+  HeldNodes held;
+  Delivery* delivery = nullptr;  ///< null: rank 0 has all velocities in the end
+  bool has_parts = false;        ///< ranks have been told to make parts of arrays
+
+  /// To be done before the next order. Nothing is sent.
+  void note(const PartWork& work) { works_.push_back(work); }
+  void send(SumOrder& order);
+
+ private:
+  std::vector<PartWork> works_;
+};
+
 /// Rank 0's side: completes the order, and sends it with the arrays that the others do not hold.
-void send_nodes(Communicator& ranks, SumOrder& order, const Sources& sources, const ConstVectors& target,
-                HeldNodes& held);
+void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const ConstVectors& target);
 void send_vectors(Communicator& ranks, const ConstVectors& vectors);
 
 /// The others' side. @param nodes  of an order before: their memory is used again

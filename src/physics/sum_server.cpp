@@ -7,10 +7,12 @@
 
 #include "direct_share.hpp"
 #include "force_share.hpp"
+#include "node_parts.hpp"
 
 #include <map>
 #include <new>
 #include <string>
+#include <utility>
 
 namespace skein {
 
@@ -24,43 +26,16 @@ std::vector<double> gather_work(Communicator& ranks) {
 
 namespace {
 
-template <class View>
-void receive(Communicator& ranks, View& array, const int n, const char* label) {
-  if (array.extent_int(0) != n) array = View(std::string(label), static_cast<std::size_t>(n));
-  const auto mirror = Kokkos::create_mirror_view(array);
-  ranks.broadcast(mirror.data(), mirror.size() * sizeof(double));
-  Kokkos::deep_copy(array, mirror);
-}
-
-}  // namespace
-
-void receive_vectors(Communicator& ranks, const int n, Vectors& vectors) {
-  receive(ranks, vectors, n, "skein::receive_vectors");
-}
-
-void receive_nodes(Communicator& ranks, const SumOrder& order, OrderedNodes& nodes) {
-  if (!order.are_held) {
-    receive(ranks, nodes.position, order.n_sources, "skein::receive_nodes::position");
-    receive(ranks, nodes.force, order.n_sources, "skein::receive_nodes::force");
-  }
-  if (order.are_same_nodes) {
-    nodes.target = nodes.position;
-  } else {
-    if (nodes.target.data() == nodes.position.data()) nodes.target = {};
-    receive(ranks, nodes.target, order.n_targets, "skein::receive_nodes::target");
-  }
-  if (!order.has_one_blob) return receive(ranks, nodes.blob, order.n_sources, "skein::receive_nodes::blob");
-  if (nodes.blob.extent_int(0) != order.n_sources)
-    nodes.blob = Scalars("skein::receive_nodes::blob", static_cast<std::size_t>(order.n_sources));
-  Kokkos::deep_copy(nodes.blob, order.blob);
-}
-
-namespace {
-
 /// A fast multipole sum on a rank that serves, and the step that it has been told of.
 struct ServedFmmSum {
   std::unique_ptr<FmmSum> sum;
   std::int64_t n_steps = 0;
+};
+
+/// A scene on a rank that serves, and its parts of arrays on the scene's nodes.
+struct ServedScene {
+  ForceShare share;
+  NodeParts parts;
 };
 
 /// The loop of the other ranks.
@@ -71,6 +46,7 @@ class SumServer {
   /// @returns false once dismissed
   bool serve_next() {
     ranks_.broadcast(&order_, sizeof order_);
+    for (std::size_t w = 0; w < order_.n_works; ++w) work(order_.works[w]);
     switch (order_.kind) {
       case SumOrder::Kind::dismiss:
         return false;
@@ -88,8 +64,7 @@ class SumServer {
         receive_nodes(ranks_, order_, nodes_);
         ranks_.begin_work(RankWork::direct_sum);
         if (look_) look_(nodes_.force);
-        direct_.add_velocity(ranks_, nodes_.sources(), nodes_.target, {}, order_.viscosity, order_.precision,
-                             order_.by_teams);
+        add_direct();
         return true;
       case SumOrder::Kind::take_nodes:
         receive_nodes(ranks_, order_, nodes_);
@@ -99,8 +74,22 @@ class SumServer {
         return true;
       case SumOrder::Kind::compute_fmm:
         ranks_.begin_work(RankWork::fmm_sum);
-        sums_.at(order_.fmm_sum).sum->compute(order_.options, order_.plan, order_.viscosity);
+        compute_fmm(*sums_.at(order_.fmm_sum).sum);
         ranks_.end_work();
+        return true;
+      case SumOrder::Kind::sample_fmm:
+        gather_sample(ranks_, scenes_.at(order_.scene).parts.owners(), *sums_.at(order_.fmm_sum).sum,
+                      EvenSample(order_.n_sampled, order_.n_chosen));
+        return true;
+      case SumOrder::Kind::work_on_parts:
+        return true;
+      case SumOrder::Kind::evaluate:
+        evaluate();
+        return true;
+      case SumOrder::Kind::norm_of_parts:
+      case SumOrder::Kind::gather_parts:
+      case SumOrder::Kind::scatter_parts:
+        move_parts(scenes_.at(order_.scene).parts);
         return true;
     }
     throw Error(ExitCode::internal, "an order of no known kind");
@@ -112,10 +101,47 @@ class SumServer {
     std::string text(order_.n_bytes, ' ');
     ranks_.broadcast(text.data(), text.size());
     scenes_.erase(order_.scene);
-    scenes_.try_emplace(order_.scene, read_scene_text(text, "the scene of rank 0", {}, {}).config, ranks_.size());
+    ForceShare share(read_scene_text(text, "the scene of rank 0", {}, {}).config, ranks_.size());
+    const NodeParts parts(share.nodes, ranks_.rank());
+    scenes_.emplace(order_.scene, ServedScene{std::move(share), parts});
+  }
+  void work(const PartWork& work) {
+    NodeParts& parts = scenes_.at(work.scene).parts;
+    if (work.kind != PartWork::Kind::add_fmm_sum) return parts.work(work);
+    const Vectors velocity = parts.rows(work.result);
+    if (velocity.extent(0) > 0) sums_.at(work.source[0]).sum->add_to(velocity);
+  }
+  void move_parts(const NodeParts& parts) {
+    const Vectors& part = parts[order_.array];
+    if (order_.kind == SumOrder::Kind::norm_of_parts)
+      add_up_squares(ranks_, parts.owners(), part);
+    else if (order_.kind == SumOrder::Kind::gather_parts)
+      gather_parts(ranks_, parts.owners(), part, {});
+    else
+      scatter_parts(ranks_, parts.owners(), {}, part);
+  }
+  void evaluate() {
+    const auto& [share, parts] = scenes_.at(order_.scene);
+    for (Vectors* const all : {&nodes_.position, &nodes_.force})
+      if (all->extent(0) != share.nodes.total()) *all = Vectors("skein::SumServer::all", share.nodes.total());
+    ranks_.begin_work(RankWork::forces);
+    gather_parts_to_all(ranks_, share.nodes, parts[order_.array], nodes_.position);
+    const Vectors velocity = parts.rows(order_.velocity);
+    if (velocity.extent(0) > 0) share.flow->compute_velocity(order_.time, parts.rows(order_.array), velocity);
+    ForceShare::compute(ranks_, share.nodes, share.forces, order_.time, nodes_.position, {}, nodes_.force);
+  }
+  void add_direct() {
+    const NodeParts* const parts = order_.is_delivered ? &scenes_.at(order_.scene).parts : nullptr;
+    direct_.add_velocity(ranks_, nodes_.sources(), nodes_.target,
+                         parts == nullptr ? Vectors() : parts->rows(order_.velocity), order_.viscosity,
+                         order_.precision, order_.by_teams, parts == nullptr ? nullptr : &parts->owners());
+  }
+  void compute_fmm(FmmSum& sum) {
+    sum.owners = order_.is_delivered ? scenes_.at(order_.scene).parts.owners() : RankParts();
+    sum.compute(order_.options, order_.plan, order_.viscosity);
   }
   void compute_forces() {
-    const ForceShare& share = scenes_.at(order_.scene);
+    const ForceShare& share = scenes_.at(order_.scene).share;
     const bool are_changes = order_.kind == SumOrder::Kind::compute_force_changes;
     receive_vectors(ranks_, order_.n_sources, nodes_.position);
     if (are_changes) receive_vectors(ranks_, order_.n_sources, nodes_.displacement);
@@ -139,7 +165,7 @@ class SumServer {
   OrderedNodes nodes_;
   DirectShare direct_;
   std::map<int, ServedFmmSum> sums_;
-  std::map<int, ForceShare> scenes_;
+  std::map<int, ServedScene> scenes_;
 };
 
 }  // namespace

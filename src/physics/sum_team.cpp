@@ -4,6 +4,8 @@
 #include "direct_share.hpp"
 #include "force_share.hpp"
 #include "kernels/node_checks.hpp"
+#include "node_parts.hpp"
+#include "shared_nodes.hpp"
 #include "sum_server.hpp"
 
 #include <fmt/format.h>
@@ -13,48 +15,11 @@
 
 namespace skein {
 
-void send_vectors(Communicator& ranks, const ConstVectors& vectors) {
-  // Some nodes of an array have gaps between their components.
-  ConstVectors packed = vectors;
-  if (!vectors.span_is_contiguous()) {
-    const Vectors copy("skein::send_vectors::packed", vectors.extent(0));
-    Kokkos::deep_copy(copy, vectors);
-    packed = copy;
-  }
-  const auto on_host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), packed);
-  // Of rank 0 nothing is changed.
-  ranks.broadcast(const_cast<double*>(on_host.data()), on_host.size() * sizeof(double));
-}
-
-void send_nodes(Communicator& ranks, SumOrder& order, const Sources& sources, const ConstVectors& target,
-                HeldNodes& held) {
-  order.n_sources = sources.position.extent_int(0);
-  order.n_targets = target.extent_int(0);
-  order.are_same_nodes = are_same_nodes(sources.position, target);
-  if (order.n_sources > 0) {
-    const BlobRange blobs = find_blob_range<ExecSpace>(ExecSpace(), sources.blob);
-    order.has_one_blob = blobs.smallest == blobs.largest;
-    order.blob = blobs.largest;
-  }
-  order.are_held = held.are(sources);
-  held = {};
-  ranks.broadcast(&order, sizeof order);
-  if (!order.are_held) {
-    send_vectors(ranks, sources.position);
-    send_vectors(ranks, sources.force);
-  }
-  if (!order.are_same_nodes) send_vectors(ranks, target);
-  if (order.has_one_blob) return;
-  const auto blob = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), sources.blob);
-  ranks.broadcast(const_cast<double*>(blob.data()), blob.size() * sizeof(double));
-}
-
 struct SumTeam::Parts {
-  Communicator& ranks;
+  TeamLink link;
   DirectShare direct;
   /// That there are; those that are gone leave their numbers, and what they have on other ranks.
   std::set<int> fmm_sums, scenes;
-  HeldNodes held;
   std::string partition;
 };
 
@@ -62,14 +27,14 @@ struct SumTeam::Parts {
 class SumTeam::SharedFmmSum final : public FmmSum {
  public:
   explicit SharedFmmSum(Parts& team)
-      : team_(team), ranks_(team.ranks), inner_(skein::make_fmm_sum(KernelPath::host, &team.ranks)) {
+      : team_(team), link_(team.link), inner_(skein::make_fmm_sum(KernelPath::host, &team.link.ranks)) {
     while (!team.fmm_sums.insert(order_.fmm_sum).second) ++order_.fmm_sum;
   }
   ~SharedFmmSum() override { team_.fmm_sums.erase(order_.fmm_sum); }
 
   bool take(const Sources& sources, const ConstVectors& target) override {
     order_.kind = SumOrder::Kind::take_nodes;
-    send_nodes(ranks_, order_, sources, target, team_.held);
+    send_nodes(link_, order_, sources, target);
     return inner_->take(sources, target);
   }
   double largest_blob() const override { return inner_->largest_blob(); }
@@ -87,28 +52,55 @@ class SumTeam::SharedFmmSum final : public FmmSum {
     order_.options = options;
     order_.plan = plan;
     order_.viscosity = viscosity;
-    ranks_.broadcast(&order_, sizeof order_);
-    ranks_.begin_work(RankWork::fmm_sum);
+    order_.is_delivered = link_.delivery != nullptr;
+    inner_->owners = {};
+    if (link_.delivery != nullptr) {
+      order_.scene = link_.delivery->scene;
+      inner_->owners = link_.delivery->owners;
+    }
+    link_.send(order_);
+    link_.ranks.begin_work(RankWork::fmm_sum);
     const bool is_done = inner_->compute(options, plan, viscosity);
-    ranks_.end_work();
+    link_.ranks.end_work();
     statistics = inner_->statistics;
     team_.partition = fmt::format("{} leaves along the tree", statistics.n_leaves);
     return is_done;
   }
-  void add_to(const Vectors& velocity) const override { inner_->add_to(velocity); }
-  std::vector<Vec3> sample(const EvenSample& sample) const override { return inner_->sample(sample); }
+  void add_to(const Vectors& velocity) const override {
+    if (!order_.is_delivered) return inner_->add_to(velocity);
+    Delivery* const delivery = link_.delivery;
+    SKEIN_REQUIRE(delivery != nullptr && delivery->room.data() == velocity.data(),
+                  "a sum is added to what it was computed for");
+    inner_->add_to(delivery->own_rows());
+    PartWork work;
+    work.kind = PartWork::Kind::add_fmm_sum;
+    work.scene = delivery->scene;
+    work.result = delivery->velocity;
+    work.source[0] = order_.fmm_sum;
+    link_.note(work);
+    delivery->is_done = true;
+  }
+  std::vector<Vec3> sample(const EvenSample& sample) const override {
+    if (!order_.is_delivered) return inner_->sample(sample);
+    SumOrder order = order_;
+    order.kind = SumOrder::Kind::sample_fmm;
+    order.n_sampled = sample.n;
+    order.n_chosen = sample.n_chosen;
+    link_.send(order);
+    return gather_sample(link_.ranks, inner_->owners, *inner_, sample);
+  }
 
  private:
   Parts& team_;
-  Communicator& ranks_;
+  TeamLink& link_;
   std::unique_ptr<FmmSum> inner_;
   SumOrder order_;
 };
 
-SumTeam::SumTeam(Communicator& ranks) : parts_(std::make_unique<Parts>(Parts{ranks, {}, {}, {}, {}, {}})) {}
+SumTeam::SumTeam(Communicator& ranks) : parts_(std::make_unique<Parts>(Parts{TeamLink(ranks), {}, {}, {}, {}})) {}
 SumTeam::~SumTeam() = default;
 
-const Communicator& SumTeam::ranks() const { return parts_->ranks; }
+const Communicator& SumTeam::ranks() const { return parts_->link.ranks; }
 
 void SumTeam::add_direct(const Sources& sources, const ConstVectors& target, const Vectors& velocity,
                          const double viscosity, const Precision precision, const bool by_teams) {
@@ -122,8 +114,18 @@ void SumTeam::add_direct(const Sources& sources, const ConstVectors& target, con
   order.viscosity = viscosity;
   order.precision = precision;
   order.by_teams = by_teams;
-  send_nodes(parts_->ranks, order, sources, target, parts_->held);
-  parts_->direct.add_velocity(parts_->ranks, sources, target, velocity, viscosity, precision, by_teams);
+  Delivery* delivery = parts_->link.delivery;
+  if (delivery != nullptr && delivery->room.data() != velocity.data()) delivery = nullptr;
+  order.is_delivered = delivery != nullptr;
+  if (delivery != nullptr) {
+    order.scene = delivery->scene;
+    order.velocity = delivery->velocity;
+    delivery->is_done = true;
+  }
+  send_nodes(parts_->link, order, sources, target);
+  parts_->direct.add_velocity(parts_->link.ranks, sources, target,
+                              delivery == nullptr ? velocity : delivery->own_rows(), viscosity, precision, by_teams,
+                              delivery == nullptr ? nullptr : &delivery->owners);
   parts_->partition = parts_->direct.partition();
 }
 
@@ -136,17 +138,30 @@ std::unique_ptr<FmmSum> SumTeam::make_fmm_sum(const KernelPath path) {
 
 std::shared_ptr<SharedForces> SumTeam::share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
                                                     const std::vector<std::unique_ptr<Force>>& forces) {
-  if (!on_host<ExecSpace> || parts_->ranks.size() == 1) return nullptr;
-  return std::make_shared<SharedForces>(parts_->ranks, parts_->held, parts_->scenes, scene, fibers, forces);
+  if (!on_host<ExecSpace> || parts_->link.ranks.size() == 1) return nullptr;
+  return std::make_shared<SharedForces>(parts_->link, parts_->scenes, scene, fibers, forces);
 }
+
+std::shared_ptr<SharedNodes> SumTeam::share_nodes(const std::shared_ptr<SharedForces>& forces,
+                                                  const BackgroundFlow& flow) {
+  if (forces == nullptr) return nullptr;
+  return std::make_shared<OwnedNodes>(parts_->link, forces, flow);
+}
+
+void SumTeam::complete(const Vectors& velocity) {
+  const Delivery* const delivery = parts_->link.delivery;
+  if (delivery != nullptr && delivery->room.data() == velocity.data()) delivery->complete();
+}
+
+bool SumTeam::advances_parts() const { return parts_->link.has_parts; }
 
 const std::string& SumTeam::partition() const { return parts_->partition; }
 
 std::vector<double> SumTeam::work_seconds() {
   SumOrder order;
   order.kind = SumOrder::Kind::tell_work;
-  parts_->ranks.broadcast(&order, sizeof order);
-  return gather_work(parts_->ranks);
+  parts_->link.send(order);
+  return gather_work(parts_->link.ranks);
 }
 
 std::string describe_balance(const std::vector<double>& seconds) {

@@ -40,6 +40,7 @@ class MemoryRestorer final : public MemoryVisitor {
   void number(std::string_view name, double& value) override;
   void integer(std::string_view name, std::int64_t& value) override;
   void vectors(std::string_view name, const Vectors& values) override;
+  bool changes_what_it_sees() const override { return true; }
 
  private:
   const Checkpoint& checkpoint_;

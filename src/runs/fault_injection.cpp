@@ -15,9 +15,9 @@ void spoil(const Vectors& vectors, const std::int64_t step) {
   Kokkos::deep_copy(Kokkos::subview(vectors, std::make_pair(node, node + 1), 1), std::nan(""));
 }
 
-Vectors copy(const ConstVectors& vectors) {
-  const Vectors result("skein::fault_injection::copy", vectors.extent(0));
-  Kokkos::deep_copy(ExecSpace(), result, vectors);
+Vectors copy(const ConstVectors& vectors, const int n_nodes, NodeVectors& nodes = whole_vectors()) {
+  const Vectors result = nodes.make("skein::fault_injection::copy", n_nodes);
+  nodes.copy(result, vectors);
   ExecSpace().fence();
   return result;
 }
@@ -36,7 +36,7 @@ class FaultyDynamics final : public RightHandSideDecorator {
 
   void compute_velocity(const double time, const ConstVectors& position, const Vectors& velocity) override {
     if (fault_.is_due(FaultOrder::Target::position)) {
-      const Vectors spoiled = copy(position);
+      const Vectors spoiled = copy(position, fault_.state.position.extent_int(0), vectors());
       spoil(spoiled, fault_.order.step);
       inner_.compute_velocity(time, spoiled, velocity);
       return;
@@ -57,12 +57,13 @@ class FaultyMobility final : public Mobility {
 
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override {
     if (!fault_.is_due(FaultOrder::Target::force)) return mobility_->add_velocity(sources, target, velocity);
-    const Vectors spoiled = copy(sources.force);
+    const Vectors spoiled = copy(sources.force, sources.force.extent_int(0));
     spoil(spoiled, fault_.order.step);
     mobility_->add_velocity({sources.position, spoiled, sources.blob}, target, velocity);
   }
   void begin_step() override { mobility_->begin_step(); }
   void end_step() noexcept override { mobility_->end_step(); }
+  bool sums_by_ranks() const override { return mobility_->sums_by_ranks(); }
   double expected_error() const override { return mobility_->expected_error(); }
   double pairs() const override { return mobility_->pairs(); }
   std::string describe() const override { return mobility_->describe(); }

@@ -69,8 +69,10 @@ std::string describe_ranks(SumTeam& team) {
   const Communicator& ranks = team.ranks();
   const std::string partition = team.partition().empty() ? "no sum yet" : team.partition();
   return fmt::format(
-      "ranks: {}, {}, each {}; they share sums and forces, whose bits are the same for any number of them: {}; {}",
-      ranks.size(), ranks.describe(), describe_backend(), partition, describe_balance(team.work_seconds()));
+      "ranks: {}, {}, each {}; they share sums and forces{}, and bits are the same for any number of them: {}; {}",
+      ranks.size(), ranks.describe(), describe_backend(),
+      team.advances_parts() ? ", each advances the nodes of its sections" : "", partition,
+      describe_balance(team.work_seconds()));
 }
 
 }  // namespace skein

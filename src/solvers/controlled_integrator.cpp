@@ -1,4 +1,3 @@
-#include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 #include <skein/solvers/controlled_integrator.hpp>
 
@@ -19,8 +18,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 ControlledIntegrator::ControlledIntegrator(RightHandSide& rhs, const ControlOptions& options, std::string name,
-                                           const double order, const int n_nodes)
-    : Integrator(rhs), options_(options), name_(std::move(name)), n_nodes_(n_nodes), control_(order) {
+                                           const double order, const int n_nodes, NodeVectors& vectors)
+    : Integrator(rhs),
+      options_(options),
+      vectors_(vectors),
+      name_(std::move(name)),
+      n_nodes_(n_nodes),
+      control_(order) {
   start_ = make_vectors("start");
   start_velocity_ = make_vectors("start_velocity");
   end_ = make_vectors("end");
@@ -29,12 +33,12 @@ ControlledIntegrator::ControlledIntegrator(RightHandSide& rhs, const ControlOpti
 }
 
 Vectors ControlledIntegrator::make_vectors(const char* label) const {
-  return Vectors("skein::" + name_ + "::" + label, static_cast<std::size_t>(n_nodes_));
+  return vectors_.make("skein::" + name_ + "::" + label, n_nodes_);
 }
 
 std::string ControlledIntegrator::find_velocity_fault(const ConstVectors& position, const ConstVectors& velocity) {
   // Added to the positions, nearly nothing of it, but what is not finite.
-  combine<ExecSpace>(ExecSpace(), scratch_, {1.0, position}, {1e-300, velocity});
+  vectors_.combine(scratch_, {{1.0, position}, {1e-300, velocity}});
   return rhs_.find_fault(scratch_);
 }
 
@@ -55,7 +59,7 @@ double ControlledIntegrator::allowed_error(const double dt) const {
 /// The end of the step is complete: whether it has a fault is found out while the error is waited for.
 double ControlledIntegrator::measure_error(const ConstVectors& error, const double dt) const {
   rhs_.seek_fault(end_);
-  return root_mean_square<ExecSpace>(ExecSpace(), error) / allowed_error(dt);
+  return vectors_.root_mean_square(error) / allowed_error(dt);
 }
 
 double ControlledIntegrator::probe_step() const { return std::min(options_.max_step, 1e-4 * options_.time_scale); }
@@ -65,11 +69,10 @@ double ControlledIntegrator::first_step(const double time) {
   if (options_.fixed_step > 0.0) return options_.fixed_step;
   const double probe = probe_step();
   // start_ and its velocity are free before the first step.
-  combine<ExecSpace>(ExecSpace(), start_, {1.0, end_}, {probe, end_velocity_});
+  vectors_.combine(start_, {{1.0, end_}, {probe, end_velocity_}});
   compute_velocity(time + probe, start_, start_velocity_);
-  combine<ExecSpace>(ExecSpace(), scratch_, {1.0, start_velocity_}, {-1.0, end_velocity_});
-  const double error =
-      root_mean_square<ExecSpace>(ExecSpace(), scratch_) / (options_.tolerance * options_.length_scale);
+  vectors_.combine(scratch_, {{1.0, start_velocity_}, {-1.0, end_velocity_}});
+  const double error = vectors_.root_mean_square(scratch_) / (options_.tolerance * options_.length_scale);
   return std::min(options_.max_step, error > 0.01 ? 0.1 * probe / error : 10.0 * probe);
 }
 
@@ -83,8 +86,8 @@ void ControlledIntegrator::visit_memory(MemoryVisitor& visitor) {
   visitor.count(name_ + ".started", started_);
   visitor.number(name_ + ".next_dt", next_dt_);
   control_.visit_memory(visitor);
-  visitor.vectors(name_ + ".end", end_);
-  visitor.vectors(name_ + ".end_velocity", end_velocity_);
+  visitor.node_vectors(name_ + ".end", vectors_, end_);
+  visitor.node_vectors(name_ + ".end_velocity", vectors_, end_velocity_);
 }
 
 double ControlledIntegrator::choose_step(const double time) const {
@@ -111,7 +114,7 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
   latest_time_ = std::nextafter(course.next_break(state.time), -infinity);
   // The last step ended with the velocity before a break.
   if (!started_ || course.is_break(state.time)) {
-    Kokkos::deep_copy(ExecSpace(), end_, state.position);
+    vectors_.scatter(state.position, end_);
     compute_velocity(state.time, end_, end_velocity_);
     const std::string fault = find_velocity_fault(end_, end_velocity_);
     if (!fault.empty())
@@ -164,11 +167,12 @@ StepReport ControlledIntegrator::take_step(State& state, const double end) {
     prepare_again(state.time, start_, start_velocity_, fault);
   }
   rhs_.project(end_);
+  gather_memory();
   step_start_ = state.time;
   step_end_ = dt == left ? end : state.time + dt;
   state.time = step_end_;
   ++state.step;
-  Kokkos::deep_copy(ExecSpace(), state.position, end_);
+  Kokkos::deep_copy(ExecSpace(), state.position, vectors_.gather(end_));
   report.dt = dt;
   report.spectral_radius = spectral_radius();
   return report;
@@ -179,8 +183,8 @@ void ControlledIntegrator::interpolate(const double time, const Vectors& positio
   const double theta = dt > 0.0 ? (time - step_start_) / dt : 1.0;
   const double h00 = (1.0 + 2.0 * theta) * (1.0 - theta) * (1.0 - theta), h10 = theta * (1.0 - theta) * (1.0 - theta);
   const double h01 = theta * theta * (3.0 - 2.0 * theta), h11 = theta * theta * (theta - 1.0);
-  combine<ExecSpace>(ExecSpace(), position, {h00, start_}, {h10 * dt, start_velocity_}, {h01, end_},
-                     {h11 * dt, end_velocity_});
+  vectors_.combine(scratch_, {{h00, start_}, {h10 * dt, start_velocity_}, {h01, end_}, {h11 * dt, end_velocity_}});
+  Kokkos::deep_copy(ExecSpace(), position, vectors_.gather(scratch_));
   rhs_.project(position);
 }
 

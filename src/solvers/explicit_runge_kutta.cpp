@@ -1,4 +1,3 @@
-#include <skein/arrays/combination.hpp>
 #include <skein/solvers/explicit_runge_kutta.hpp>
 
 #include <utility>
@@ -27,16 +26,17 @@ RungeKuttaTableau make_classical_runge_kutta() {
 
 ExplicitRungeKutta::ExplicitRungeKutta(RightHandSide& rhs, const ControlOptions& options, RungeKuttaTableau tableau,
                                        const int n_nodes)
-    : ControlledIntegrator(rhs, options, tableau.name, tableau.estimate_order, n_nodes), tableau_(std::move(tableau)) {
+    : ControlledIntegrator(rhs, options, tableau.name, tableau.estimate_order, n_nodes, rhs.vectors()),
+      tableau_(std::move(tableau)) {
   for (std::size_t stage = 1; stage < tableau_.node.size(); ++stage)
     stage_velocity_.push_back(make_vectors("stage_velocity"));
 }
 
 void ExplicitRungeKutta::add_stages(const Vectors& target, const double dt, const std::vector<double>& factor) {
-  combine<ExecSpace>(ExecSpace(), target, {1.0, start_}, {factor[0] * dt, start_velocity_});
+  vectors_.combine(target, {{1.0, start_}, {factor[0] * dt, start_velocity_}});
   for (std::size_t stage = 1; stage < factor.size(); ++stage)
     if (factor[stage] != 0.0)
-      combine<ExecSpace>(ExecSpace(), target, {1.0, target}, {factor[stage] * dt, stage_velocity_[stage - 1]});
+      vectors_.combine(target, {{1.0, target}, {factor[stage] * dt, stage_velocity_[stage - 1]}});
 }
 
 ControlledIntegrator::Attempt ExplicitRungeKutta::attempt(const double time, const double dt) {
@@ -49,10 +49,10 @@ ControlledIntegrator::Attempt ExplicitRungeKutta::attempt(const double time, con
   compute_velocity(time + dt, end_, end_velocity_);
 
   const std::vector<double>& error = tableau_.error;
-  combine<ExecSpace>(ExecSpace(), scratch_, {error[0] * dt, start_velocity_}, {error[n_stages] * dt, end_velocity_});
+  vectors_.combine(scratch_, {{error[0] * dt, start_velocity_}, {error[n_stages] * dt, end_velocity_}});
   for (std::size_t stage = 1; stage < n_stages; ++stage)
     if (error[stage] != 0.0)
-      combine<ExecSpace>(ExecSpace(), scratch_, {1.0, scratch_}, {error[stage] * dt, stage_velocity_[stage - 1]});
+      vectors_.combine(scratch_, {{1.0, scratch_}, {error[stage] * dt, stage_velocity_[stage - 1]}});
   return {measure_error(scratch_, dt), static_cast<int>(n_stages), ""};
 }
 

@@ -6,6 +6,14 @@ namespace skein {
 
 namespace {
 
+/// Lets rank 0 have what others have parts of.
+class Gatherer final : public MemoryVisitor {
+ public:
+  void number(std::string_view, double&) override {}
+  void integer(std::string_view, std::int64_t&) override {}
+  void vectors(std::string_view, const Vectors&) override {}
+};
+
 class StepScope {
  public:
   explicit StepScope(RightHandSide& rhs) : rhs_(rhs) { rhs_.begin_step(); }
@@ -18,6 +26,11 @@ class StepScope {
 };
 
 }  // namespace
+
+void Integrator::gather_memory() {
+  Gatherer gatherer;
+  visit_memory(gatherer);
+}
 
 StepReport Integrator::advance(State& state, const double end) {
   before_.take(*this, rhs_);

@@ -1,4 +1,3 @@
-#include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 #include <skein/solvers/rkc2.hpp>
 #include <skein/solvers/rkc2_stages.hpp>
@@ -23,8 +22,8 @@ constexpr int max_stages = 1000;  // rounding errors of a step grow with their s
 }  // namespace
 
 Rkc2::Rkc2(RightHandSide& rhs, const Rkc2Options& options, const int n_nodes)
-    : ControlledIntegrator(rhs, options, "RKC2", 2.0, n_nodes),
-      power_iteration_(n_nodes, options.displacement, options.seed),
+    : ControlledIntegrator(rhs, options, "RKC2", 2.0, n_nodes, rhs.vectors()),
+      power_iteration_(n_nodes, options.displacement, options.seed, vectors_),
       stage_{make_vectors("stage"), make_vectors("stage"), make_vectors("stage")},
       stage_velocity_(make_vectors("stage_velocity")) {}
 
@@ -83,7 +82,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
   double mu_tilde = w1 * b_1;
   double c_2 = 0.0, c_1 = mu_tilde;  // stage times over dt
 
-  combine<ExecSpace>(ExecSpace(), stage_[1], {1.0, start_}, {mu_tilde * dt, start_velocity_});
+  vectors_.combine(stage_[1], {{1.0, start_}, {mu_tilde * dt, start_velocity_}});
   Vectors y_2 = start_, y_1 = stage_[1], y = stage_[2], spare = stage_[0];
   double a_1 = 1.0 - b_1 * t_1;
   for (int j = 2; j <= stages; ++j) {
@@ -97,8 +96,11 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
     const double gamma_tilde = -a_1 * mu_tilde;
     compute_velocity(time + c_1 * dt, y_1, stage_velocity_);
     const Vectors& target = j == stages ? end_ : y;
-    combine<ExecSpace>(ExecSpace(), target, {1.0 - mu - nu, start_}, {mu, y_1}, {nu, y_2},
-                       {mu_tilde * dt, stage_velocity_}, {gamma_tilde * dt, start_velocity_});
+    vectors_.combine(target, {{1.0 - mu - nu, start_},
+                              {mu, y_1},
+                              {nu, y_2},
+                              {mu_tilde * dt, stage_velocity_},
+                              {gamma_tilde * dt, start_velocity_}});
     const double c = mu * c_1 + nu * c_2 + mu_tilde + gamma_tilde;
     // Rotate the three buffers; start_ is never written.
     const Vectors freed = j == 2 ? spare : y_2;
@@ -113,8 +115,7 @@ Rkc2::Attempt Rkc2::attempt(const double time, const double dt) {
     a_1 = 1.0 - b * t;
   }
   compute_velocity(time + dt, end_, end_velocity_);
-  combine<ExecSpace>(ExecSpace(), scratch_, {0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_},
-                     {0.4 * dt, end_velocity_});
+  vectors_.combine(scratch_, {{0.8, start_}, {-0.8, end_}, {0.4 * dt, start_velocity_}, {0.4 * dt, end_velocity_}});
   return {measure_error(scratch_, dt), stages, "", estimate_excess};
 }
 

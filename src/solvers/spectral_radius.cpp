@@ -1,4 +1,3 @@
-#include <skein/arrays/combination.hpp>
 #include <skein/solvers/spectral_radius.hpp>
 
 #include <cmath>
@@ -23,28 +22,29 @@ std::vector<Vec3> make_noise(const int n_nodes, const std::uint64_t seed) {
 
 }  // namespace
 
-SpectralRadius::SpectralRadius(const int n_nodes, const double displacement, const std::uint64_t seed)
-    : displacement_(displacement),
-      direction_(to_device("skein::SpectralRadius::direction", make_noise(n_nodes, seed))),
-      displaced_("skein::SpectralRadius::displaced", static_cast<std::size_t>(n_nodes)),
-      displaced_velocity_("skein::SpectralRadius::displaced_velocity", static_cast<std::size_t>(n_nodes)) {
-  combine<ExecSpace>(ExecSpace(), direction_, {1.0 / root_mean_square<ExecSpace>(ExecSpace(), direction_), direction_},
-                     {0.0, direction_});
+SpectralRadius::SpectralRadius(const int n_nodes, const double displacement, const std::uint64_t seed,
+                               NodeVectors& vectors)
+    : vectors_(vectors),
+      displacement_(displacement),
+      direction_(vectors.make("skein::SpectralRadius::direction", n_nodes)),
+      displaced_(vectors.make("skein::SpectralRadius::displaced", n_nodes)),
+      displaced_velocity_(vectors.make("skein::SpectralRadius::displaced_velocity", n_nodes)) {
+  vectors.scatter(to_device("skein::SpectralRadius::noise", make_noise(n_nodes, seed)), direction_);
+  vectors.combine(direction_, {{1.0 / vectors.root_mean_square(direction_), direction_}, {0.0, direction_}});
 }
 
 double SpectralRadius::estimate(RightHandSide& rhs, const double time, const ConstVectors& position,
                                 const ConstVectors& velocity, const double accuracy, const int max_iterations) {
   double radius = 0.0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    combine<ExecSpace>(ExecSpace(), displaced_, {1.0, position}, {displacement_, direction_});
+    vectors_.combine(displaced_, {{1.0, position}, {displacement_, direction_}});
     rhs.compute_velocity(time, displaced_, displaced_velocity_);
     const Vectors& change = displaced_velocity_;
-    combine<ExecSpace>(ExecSpace(), change, {1.0 / displacement_, displaced_velocity_},
-                       {-1.0 / displacement_, velocity});
-    const double size = root_mean_square<ExecSpace>(ExecSpace(), change);
+    vectors_.combine(change, {{1.0 / displacement_, displaced_velocity_}, {-1.0 / displacement_, velocity}});
+    const double size = vectors_.root_mean_square(change);
     // The vector stays as it was: one that is zero or not finite would spoil every later estimate.
     if (!(size > 0.0) || !std::isfinite(size)) return size;
-    combine<ExecSpace>(ExecSpace(), direction_, {1.0 / size, change}, {0.0, change});
+    vectors_.combine(direction_, {{1.0 / size, change}, {0.0, change}});
     const bool settled = iteration > 0 && std::abs(size - radius) <= accuracy * size;
     radius = size;
     if (settled) break;

@@ -35,7 +35,7 @@ Linearization& get_linearization(RightHandSide& rhs) {
 }  // namespace
 
 TrBdf2::TrBdf2(RightHandSide& rhs, const ControlOptions& options, const int n_nodes)
-    : ControlledIntegrator(rhs, options, "TR-BDF2", 2.0, n_nodes),
+    : ControlledIntegrator(rhs, options, "TR-BDF2", 2.0, n_nodes, whole_vectors()),
       linearization_(get_linearization(rhs)),
       gmres_(n_nodes, max_iterations),
       factorized_position_(make_vectors("factorized_position")),

@@ -77,6 +77,8 @@ CASES = {
     "fmm_rkc2": (FIBER.format(sections=120, nodes=9, blob=0.0045), "fmm", "rkc2"),
     "fmm_trbdf2": (FIBER.format(sections=120, nodes=9, blob=0.0045), "fmm", "trbdf2"),
     "few_nodes": (FIBER.format(sections=10, nodes=6, blob=0.0065), "direct", "rkc2"),
+    "few_nodes_bs3": (FIBER.format(sections=10, nodes=6, blob=0.0065), "direct", "bs3"),
+    "few_nodes_rk4": (FIBER.format(sections=10, nodes=6, blob=0.0065), "direct", "rk4"),
     "two_fibers": (TWO_FIBERS, "direct", "rkc2"),
     "many_fibers": (MANY_FIBERS, "auto", "rkc2"),
     "fmm_many_fibers": (SPREAD_FIBERS, "fmm", "rkc2"),
@@ -126,6 +128,8 @@ def check_case(program, mpirun, folder, name):
             check(f"ranks: {n_ranks}," in said, f"{name}: no ranks in the first lines: {said}")
             check("leaves along the tree" in said or sums != "fmm", f"{name}: no tree is shared: {said}")
             check("times the mean work" in said or n_ranks == 1, f"{name}: nothing of balance: {said}")
+            is_owned = n_ranks > 1 and method != "trbdf2"
+            check(("each advances the nodes of its sections" in said) == is_owned, f"{name}: whose are the nodes? {said}")
     reference = arrays(runs[1])
     first, n_steps = reference[POSITION], reference["evaluations/value"].shape[0]
     check(n_steps >= STEPS, f"{name}: only {n_steps} steps")

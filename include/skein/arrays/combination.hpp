@@ -3,6 +3,7 @@
 #include <skein/arrays/types.hpp>
 
 #include <cmath>
+#include <vector>
 
 namespace skein {
 
@@ -26,6 +27,13 @@ void combine(const Space& space, const VectorView<Space>& result, const Term<Spa
 /// a . b over all components; the order of the sum does not depend on threads. Waits for the device.
 template <class Space>
 double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b);
+
+/// Nodes that a host adds up by themselves in a dot product: what fixes its order.
+inline constexpr int host_chunk_nodes = 256;
+
+/// What a dot product adds up in the end: its parts from chunks of nodes, of which the last may have fewer.
+template <class Space>
+std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b);
 
 /// Over nodes, of the vectors' lengths; the order of the sum is that of dot_product.
 template <class Space>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/arrays/memory_visitor.hpp>
+#include <skein/arrays/node_vectors.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +9,8 @@
 
 namespace skein {
 
-/// What objects remember at one moment, to be brought back later. Arrays stay on the device, and their copies are used
-/// again by the next take.
+/// What objects remember at one moment, to be brought back later. Arrays stay on the device, and where
+/// ranks have parts of them, with these; their copies are used again by the next take.
 class MemorySnapshot {
  public:
   /// Remembers what visit_memory of each object shows, in place of what was remembered before.
@@ -33,6 +34,7 @@ class MemorySnapshot {
     void number(std::string_view name, double& value) override;
     void integer(std::string_view name, std::int64_t& value) override;
     void vectors(std::string_view name, const Vectors& values) override;
+    void node_vectors(std::string_view name, NodeVectors& nodes, const Vectors& values) override;
 
    private:
     MemorySnapshot& snapshot_;
@@ -45,6 +47,8 @@ class MemorySnapshot {
     void number(std::string_view name, double& value) override;
     void integer(std::string_view name, std::int64_t& value) override;
     void vectors(std::string_view name, const Vectors& values) override;
+    void node_vectors(std::string_view name, NodeVectors& nodes, const Vectors& values) override;
+    bool changes_what_it_sees() const override { return true; }
 
    private:
     const MemorySnapshot& snapshot_;

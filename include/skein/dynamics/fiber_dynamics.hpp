@@ -37,6 +37,9 @@ class FiberDynamics final : public RightHandSide {
   /// What the mobility remembers.
   void visit_memory(MemoryVisitor& visitor) override { physics_.mobility->visit_memory(visitor); }
 
+  /// Where ranks own the nodes, in parts.
+  NodeVectors& vectors() override;
+
   /// M(position) dF/dx: neither the flow's gradient nor the change of M, which are no faster than the shear.
   /// Null where a fiber is rigid: what keeps it so answers every displacement of the others.
   Linearization* linearization() override;
@@ -55,6 +58,8 @@ class FiberDynamics final : public RightHandSide {
 
  private:
   void multiply(double time, const ConstVectors& position, const ConstVectors& displacement, const Vectors& result);
+  bool has_parts(const ConstVectors& vectors) const;
+  ConstVectors all_of(const ConstVectors& position) const;
   std::string describe_fault(const ConstVectors& position, int node) const;
 
   Physics& physics_;

@@ -46,6 +46,10 @@ class FmmSum {
   virtual std::vector<Vec3> sample(const EvenSample& sample) const = 0;
 
   FmmStatistics statistics;
+
+  /// With ranks: who has the velocities of which targets in the end, consecutive ones each; `add_to` then takes this
+  /// rank's. Empty, as at first: rank 0 has all. To be set alike on all ranks before `compute`.
+  RankParts owners;
 };
 
 /// @param path  automatic: on the host where kernels run there, else on the device

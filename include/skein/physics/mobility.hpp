@@ -30,6 +30,9 @@ class Mobility {
   virtual void begin_step() {}
   virtual void end_step() noexcept {}
 
+  /// True where all sums are ranks' (SumTeam), so that they may leave velocities with those that own the nodes.
+  virtual bool sums_by_ranks() const { return false; }
+
   /// Of velocities, relative (2-norm); 0 where it is that of double precision.
   virtual double expected_error() const { return 0.0; }
 

@@ -17,6 +17,7 @@
 namespace skein {
 
 class SharedForces;
+class SharedNodes;
 class SumTeam;
 
 /// All that a scene says of the world, ready to be asked: fibers, the forces on their nodes, the flow and the fluid.
@@ -33,6 +34,7 @@ struct Physics {
   double viscosity = 1.0;                        ///< force * time / length^2
   std::shared_ptr<const NodeSymmetry> symmetry;  ///< that velocities keep; null: none
   std::shared_ptr<SharedForces> shared_forces;   ///< with ranks; null: none. Forces put in by others are not shared
+  std::shared_ptr<SharedNodes> shared_nodes;     ///< that ranks own parts of; null: none
 
   /// Nodes at the start, of which those of a symmetric scene are images of each other to the last bit.
   /// @param seed  of random bends  @returns [n_nodes], length

@@ -14,11 +14,13 @@
 
 namespace skein {
 
+class BackgroundFlow;
 class SharedForces;
+class SharedNodes;
 
 /// Ranks that share the sums and forces of one run. Rank 0 holds the run and this object, and asks the others for their
-/// parts of a sum when there is one; they hold no state of the run and take no decision, so that nothing of a run can
-/// depend on how many they are. The others call serve_sums.
+/// parts of a sum when there is one, or to work on their parts of arrays; they take no decision, so that nothing of a
+/// run can depend on how many they are. The others call serve_sums.
 class SumTeam {
  public:
   /// @param ranks  must outlive the team, which holds arrays
@@ -40,6 +42,16 @@ class SumTeam {
   /// on devices. @param scene  as make_physics is given it  @param forces  made of it
   std::shared_ptr<SharedForces> share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
                                              const std::vector<std::unique_ptr<Force>>& forces);
+
+  /// The nodes of a scene, each owned by a rank. @param forces  of share_forces; null: nothing is shared
+  std::shared_ptr<SharedNodes> share_nodes(const std::shared_ptr<SharedForces>& forces, const BackgroundFlow& flow);
+
+  /// For who looks at a velocity that he has been given to add to: on rank 0 it has only its own nodes' rows, before
+  /// this.
+  void complete(const Vectors& velocity);
+
+  /// True since an integrator was made whose arrays ranks have parts of.
+  bool advances_parts() const;
 
   /// How the last sum was divided, in words; empty before there was one.
   const std::string& partition() const;

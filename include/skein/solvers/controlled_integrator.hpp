@@ -20,7 +20,9 @@ class ControlledIntegrator : public Integrator {
  protected:
   /// @param name   of the method, for the log and for the names in checkpoints
   /// @param order  with which the estimated error per unit time falls with the step
-  ControlledIntegrator(RightHandSide& rhs, const ControlOptions& options, std::string name, double order, int n_nodes);
+  /// @param vectors  what the method works with: those of the right-hand side, or whole ones
+  ControlledIntegrator(RightHandSide& rhs, const ControlOptions& options, std::string name, double order, int n_nodes,
+                       NodeVectors& vectors);
 
   struct Attempt {
     double error = 0.0;  ///< over tolerance; NaN where the step went wild
@@ -56,6 +58,7 @@ class ControlledIntegrator : public Integrator {
   std::string find_velocity_fault(const ConstVectors& position, const ConstVectors& velocity);
 
   ControlOptions options_;
+  NodeVectors& vectors_;
   Vectors start_, start_velocity_;  ///< y_n and F_n of the step in work, or of the last accepted one
   Vectors end_, end_velocity_;      ///< y_(n+1) and F_(n+1)
   Vectors scratch_;                 ///< free before and after an attempt, and inside it

@@ -25,6 +25,7 @@ class Euler final : public Integrator {
   double spectral_radius_ = 0.0;  ///< at the start, 1 / time; 0 before the first step
   double step_start_ = 0.0;
   double step_end_ = 0.0;
+  NodeVectors& vectors_;
   Vectors start_;  ///< positions at step_start_
   Vectors end_;    ///< positions at step_end_
   Vectors velocity_;

@@ -60,6 +60,10 @@ class Integrator {
   /// step is accepted.
   virtual StepReport take_step(State& state, double end) = 0;
 
+  /// Before the state is changed: where ranks own nodes, rank 0 has all that visit_memory shows from here on, so that
+  /// it can save it when another rank is lost.
+  void gather_memory();
+
   RightHandSide& rhs_;
 
  private:

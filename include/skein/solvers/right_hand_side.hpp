@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/arrays/memory_visitor.hpp>
+#include <skein/arrays/node_vectors.hpp>
 #include <skein/arrays/types.hpp>
 #include <skein/core/time_course.hpp>
 #include <skein/solvers/linearization.hpp>
@@ -48,6 +49,10 @@ class RightHandSide {
     static const TimeCourse steady;
     return steady;
   }
+
+  /// What an integrator may work with whose arrays need not be whole. compute_velocity, find_fault and seek_fault take
+  /// its arrays as well as whole ones, but not both in one call.
+  virtual NodeVectors& vectors() { return whole_vectors(); }
 
   /// Its stiff part; null where it has none to offer. Belongs to this object.
   virtual Linearization* linearization() { return nullptr; }

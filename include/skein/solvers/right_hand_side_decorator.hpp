@@ -20,6 +20,7 @@ class RightHandSideDecorator : public RightHandSide {
   std::int64_t evaluations() const override { return inner_.evaluations(); }
   void visit_memory(MemoryVisitor& visitor) override { inner_.visit_memory(visitor); }
   const TimeCourse& time_course() const override { return inner_.time_course(); }
+  NodeVectors& vectors() override { return inner_.vectors(); }
   Linearization* linearization() override { return inner_.linearization(); }
 
  protected:

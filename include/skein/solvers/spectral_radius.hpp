@@ -15,7 +15,8 @@ class SpectralRadius {
   /// @param displacement  root-mean-square displacement of a node in the differences, length; small against the node
   ///                      spacing, large against the rounding of positions.
   /// @param seed          of the first vector
-  SpectralRadius(int n_nodes, double displacement, std::uint64_t seed);
+  /// @param vectors       of which positions and velocities are
+  SpectralRadius(int n_nodes, double displacement, std::uint64_t seed, NodeVectors& vectors = whole_vectors());
 
   /// @param velocity  at `position`, already evaluated.
   /// @returns the estimate, 1 / time, from below; the last two iterates agreed within `accuracy`, or max_iterations
@@ -25,9 +26,10 @@ class SpectralRadius {
 
   /// The current vector, root-mean-square 1.
   const Vectors& vector() const { return direction_; }
-  void visit_memory(MemoryVisitor& visitor) { visitor.vectors("spectral_radius.vector", direction_); }
+  void visit_memory(MemoryVisitor& visitor) { visitor.node_vectors("spectral_radius.vector", vectors_, direction_); }
 
  private:
+  NodeVectors& vectors_;
   double displacement_;
   Vectors direction_;
   Vectors displaced_;

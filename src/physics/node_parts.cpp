@@ -1,0 +1,160 @@
+#include "node_parts.hpp"
+
+#include <skein/arrays/combination.hpp>
+#include <skein/arrays/node_vectors.hpp>
+#include <skein/core/error.hpp>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace skein {
+namespace {
+
+/// Of a rank's nodes: chunks of a dot product that are its alone, and the nodes before and behind them.
+struct ChunkShare {
+  std::size_t head = 0, n_chunks = 0, chunk_nodes = 0, tail = 0;
+
+  ChunkShare(const RankParts& owners, const std::size_t rank) {
+    constexpr std::size_t size = host_chunk_nodes;
+    const std::size_t first = owners.first[rank], end = first + owners.count[rank];
+    const std::size_t first_chunk = (first + size - 1) / size;
+    const std::size_t end_chunk = end == owners.total() ? (end + size - 1) / size : end / size;
+    if (end_chunk <= first_chunk) {
+      head = end - first;
+      return;
+    }
+    const std::size_t last = std::min(end_chunk * size, end);
+    head = first_chunk * size - first;
+    n_chunks = end_chunk - first_chunk;
+    chunk_nodes = last - first_chunk * size;
+    tail = end - last;
+  }
+  std::size_t n_single() const { return head + tail; }
+  std::size_t n_numbers() const { return n_chunks + 3 * n_single(); }
+};
+
+void append_rows(const Vectors& rows, const std::size_t first, const std::size_t n, std::vector<double>& numbers) {
+  for (std::size_t i = first; i < first + n; ++i)
+    for (int c = 0; c < 3; ++c) numbers.push_back(rows(i, c));
+}
+
+}  // namespace
+
+Vectors make_part(const std::string& label, const RankParts& owners, const int rank) {
+  return Vectors(label, std::max<std::size_t>(1, owners.count[static_cast<std::size_t>(rank)]));
+}
+
+Vectors rows_of(const Vectors& whole, const std::size_t first, const std::size_t n) {
+  return Kokkos::subview(whole, std::make_pair(first, first + n), Kokkos::ALL());
+}
+
+Vectors own_rows(const Vectors& part, const RankParts& owners, const int rank) {
+  return rows_of(part, 0, owners.count[static_cast<std::size_t>(rank)]);
+}
+
+void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole) {
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  Kokkos::deep_copy(ExecSpace(), rows_of(whole, owners.first[rank], owners.count[rank]),
+                    own_rows(part, owners, ranks.rank()));
+  ExecSpace().fence();
+  std::vector<double*> columns;
+  for (int c = 0; c < 3; ++c) columns.push_back(whole.data() + static_cast<std::size_t>(c) * whole.stride(1));
+  ranks.gather_to_all(columns, owners);
+}
+
+void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole) {
+  ExecSpace().fence();
+  for (std::size_t c = 0; c < 3; ++c)
+    ranks.gather(part.data() + c * part.stride(1), owners,
+                 ranks.rank() == 0 ? whole.data() + c * whole.stride(1) : nullptr);
+}
+
+void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part) {
+  const bool sends = ranks.rank() == 0;
+  const std::vector<std::size_t> none(owners.count.size());
+  RankParts received{none, none};
+  received.count[0] = owners.count[static_cast<std::size_t>(ranks.rank())];
+  ExecSpace().fence();
+  for (std::size_t c = 0; c < 3; ++c)
+    ranks.exchange(sends ? whole.data() + c * whole.stride(1) : nullptr, sends ? owners : RankParts{none, none},
+                   part.data() + c * part.stride(1), received);
+}
+
+double add_up_squares(Communicator& ranks, const RankParts& owners, const Vectors& part) {
+  std::vector<ChunkShare> shares;
+  std::vector<std::size_t> counts;
+  for (std::size_t rank = 0; rank < owners.count.size(); ++rank) {
+    shares.emplace_back(owners, rank);
+    counts.push_back(shares.back().n_numbers());
+  }
+  const ExecSpace space;
+  const ChunkShare& own = shares[static_cast<std::size_t>(ranks.rank())];
+  std::vector<double> numbers;
+  if (own.n_chunks > 0) {
+    const Vectors rows = rows_of(part, own.head, own.chunk_nodes);
+    numbers = dot_chunks<ExecSpace>(space, rows, rows);
+  }
+  space.fence();
+  append_rows(part, 0, own.head, numbers);
+  append_rows(part, own.head + own.chunk_nodes, own.tail, numbers);
+  const RankParts parts = RankParts::behind_each_other(std::move(counts));
+  std::vector<double> all(ranks.rank() == 0 ? parts.total() : 0);
+  ranks.gather(numbers.data(), parts, all.data());
+  if (ranks.rank() != 0) return 0.0;
+
+  // Nodes of chunks that are several ranks' come together here, so that the same kernel adds them up.
+  std::size_t n_single = 0;
+  for (const ChunkShare& share : shares) n_single += share.n_single();
+  const Vectors single("skein::add_up_squares::single", n_single);
+  std::size_t next = 0;
+  for (std::size_t rank = 0; rank < shares.size(); ++rank) {
+    const double* number = all.data() + parts.first[rank] + shares[rank].n_chunks;
+    for (std::size_t i = 0; i < shares[rank].n_single(); ++i, ++next)
+      for (int c = 0; c < 3; ++c) single(next, c) = *number++;
+  }
+  std::vector<double> of_single;
+  if (n_single > 0) of_single = dot_chunks<ExecSpace>(space, single, single);
+  // Chunks in their order: a rank's own ones begin behind the one that its head ends.
+  double total = 0.0;
+  std::size_t n_seen = 0, n_added = 0;  // of single nodes, and of the chunks of such
+  const auto add_single = [&](const std::size_t n_nodes, const bool ends) {
+    n_seen += n_nodes;
+    for (; n_added < (ends ? (n_seen + host_chunk_nodes - 1) / host_chunk_nodes : n_seen / host_chunk_nodes); ++n_added)
+      total += of_single[n_added];
+  };
+  for (std::size_t rank = 0; rank < shares.size(); ++rank) {
+    add_single(shares[rank].head, false);
+    const double* const of_rank = all.data() + parts.first[rank];
+    for (std::size_t chunk = 0; chunk < shares[rank].n_chunks; ++chunk) total += of_rank[chunk];
+    add_single(shares[rank].tail, false);
+  }
+  add_single(0, true);
+  return total;
+}
+
+void NodeParts::work(const PartWork& work) {
+  switch (work.kind) {
+    case PartWork::Kind::make:
+      parts_[work.result] = make_part("skein::NodeParts::part", owners_, rank_);
+      return;
+    case PartWork::Kind::drop:
+      parts_.erase(work.result);
+      return;
+    case PartWork::Kind::copy:
+      return Kokkos::deep_copy(ExecSpace(), parts_.at(work.result), parts_.at(work.source[0]));
+    case PartWork::Kind::combine: {
+      const auto term = [&](const int i) { return Term<ExecSpace>{work.factor[i], parts_.at(work.source[i])}; };
+      const Vectors& result = parts_.at(work.result);
+      NodeVectors& whole = whole_vectors();
+      if (work.n_terms == 2) return whole.combine(result, {term(0), term(1)});
+      if (work.n_terms == 4) return whole.combine(result, {term(0), term(1), term(2), term(3)});
+      return whole.combine(result, {term(0), term(1), term(2), term(3), term(4)});
+    }
+    case PartWork::Kind::add_fmm_sum:
+      break;
+  }
+  throw Error(ExitCode::internal, "work of no known kind on parts of arrays");
+}
+
+}  // namespace skein

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <skein/arrays/types.hpp>
+#include <skein/ranks/communicator.hpp>
+
+#include "sum_order.hpp"
+
+#include <map>
+#include <string>
+
+namespace skein {
+
+/// A rank's own part of an array on nodes. It has a row at least, so that it is told from others by where it lies: one
+/// that is nobody's where the rank owns no nodes.
+Vectors make_part(const std::string& label, const RankParts& owners, int rank);
+/// Those that it owns. @param part  as make_part makes it
+Vectors own_rows(const Vectors& part, const RankParts& owners, int rank);
+Vectors rows_of(const Vectors& whole, std::size_t first, std::size_t n);
+
+/// To be called by all ranks. The parts of an array on all ranks, or on rank 0 alone, or from rank 0.
+/// @param whole  [owners.total(), 3]; of rank 0 alone in the latter two
+void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole);
+void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole);
+void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part);
+
+/// The same of the squares of vectors on all nodes: their sum, in the order of dot_product of the whole array.
+/// @returns it on rank 0, 0 on others
+double add_up_squares(Communicator& ranks, const RankParts& owners, const Vectors& part);
+
+/// The parts of arrays that a rank other than 0 has, by the numbers that rank 0 gave them.
+class NodeParts {
+ public:
+  NodeParts(const RankParts& owners, const int rank) : owners_(owners), rank_(rank) {}
+  const RankParts& owners() const { return owners_; }
+  const Vectors& operator[](const int number) const { return parts_.at(number); }
+  Vectors rows(const int number) const { return own_rows(parts_.at(number), owners_, rank_); }
+
+  /// All kinds of work but add_fmm_sum.
+  void work(const PartWork& work);
+
+ private:
+  RankParts owners_;
+  int rank_;
+  std::map<int, Vectors> parts_;
+};
+
+}  // namespace skein
