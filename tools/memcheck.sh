@@ -124,22 +124,24 @@ check_verbs() {
   check "analyze, damaged segments" 65 "$skein" analyze "$folder/damaged"
 }
 
-# The programs of the unit tests, with those that a script calls.
+# The programs of the unit tests, with those that a script calls; each with its arguments, between tabs.
 list_tests() {
   ctest --test-dir "$build" -L '^unit$' --show-only=json-v1 | python3 -c '
 import json, sys
 for test in json.load(sys.stdin)["tests"]:
-    for word in test.get("command", []):
+    command = test.get("command", [])
+    for word in command:
         path = word.removeprefix("-DPROGRAM=")
         if path.startswith(sys.argv[1] + "/"):
-            print(path.rsplit("/")[-1])' "$bin" | sort -u | { grep -E "$only" || true; }
+            print(*[path.rsplit("/")[-1], *(command[1:] if word == command[0] else [])], sep="\t")' "$bin" | sort -u |
+    awk -F '\t' -v only="$only" '$1 ~ only'
 }
 
 printf '%-44s%-6s%8s  %s\n' "under valgrind" "whole" "seconds" "valgrind's own sum"
 if $verbs; then check_verbs; fi
 if $tests; then
   limit=$seconds
-  for program in $(list_tests); do check "$program" 0 "$bin/$program"; done
+  while IFS=$'\t' read -ra words; do check "${words[0]}" 0 "$bin/${words[0]}" "${words[@]:1}"; done < <(list_tests)
 fi
 echo "$n_checked programs; $n_late took longer than $seconds s; $( ((kept)) && echo "there were errors: see $folder" || echo "no error")"
 exit $kept
