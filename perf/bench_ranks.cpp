@@ -15,13 +15,14 @@
 #include "mpi/launch.hpp"
 #include "node_arrangements.hpp"
 #include "rank_steps.hpp"
+#include "sum_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace skein {
@@ -29,28 +30,16 @@ namespace {
 
 constexpr double viscosity = 1.0;
 
-struct Problem {
-  std::string name;
-  Vectors position, force, velocity;
-  Scalars blob;
-
+struct Problem : perf::SumProblem {
   Problem(std::string title, const std::vector<Vec3>& nodes, const double blob_size)
-      : name(std::move(title)),
-        position(to_device("skein::bench_ranks::position", nodes)),
-        velocity("skein::bench_ranks::velocity", nodes.size()),
-        blob("skein::bench_ranks::blob", nodes.size()) {
-    std::mt19937_64 random(3);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    std::vector<Vec3> forces(nodes.size());
-    for (Vec3& f : forces) f = {uniform(random), uniform(random), uniform(random)};
-    force = to_device("skein::bench_ranks::force", forces);
-    Kokkos::deep_copy(blob, blob_size);
-  }
+      : SumProblem(nodes, blob_size), name(std::move(title)) {}
+
+  std::string name;
 };
 
 /// Times sums outside of steps, each with a tree of its own; in steps trees serve several.
 void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const int repeats) {
-  const Sources sources{problem.position, problem.force, problem.blob};
+  const Sources sources = problem.sources();
   const auto sum = [&] { mobility.add_velocity(sources, problem.position, problem.velocity); };
   sum();
   const std::vector<double> work_before = team != nullptr ? team->work_seconds() : std::vector<double>{0.0};
@@ -69,14 +58,13 @@ void measure(const Problem& problem, Mobility& mobility, SumTeam* team, const in
   for (std::size_t r = 0; r < work.size(); ++r) busiest = std::max(busiest, (work[r] - work_before[r]) / repeats);
   std::sort(seconds.begin(), seconds.end());
   std::printf("%s,%d,%d,%d,%.5g,%.5g,%.5g,%.5g,%.4g,%.4g,%.4g,%.3g,%.4g,%.4g,%.4g,%.4g,%.4g,%d\n", problem.name.c_str(),
-              team != nullptr ? team->ranks().size() : 0, HostSpace().concurrency(), problem.position.extent_int(0),
-              seconds.front(), seconds[seconds.size() / 2], busiest,
-              (after.wait_seconds - before.wait_seconds) / repeats,
+              team != nullptr ? team->ranks().size() : 0, HostSpace().concurrency(), problem.n, seconds.front(),
+              seconds[seconds.size() / 2], busiest, (after.wait_seconds - before.wait_seconds) / repeats,
               (after.broadcast_bytes - before.broadcast_bytes) / repeats,
               (after.exchanged_bytes - before.exchanged_bytes) / repeats,
               (after.gathered_bytes - before.gathered_bytes) / repeats, (after.messages - before.messages) / repeats,
               statistics.tree_seconds, statistics.sort_seconds, statistics.far_seconds, statistics.leaf_seconds,
-              statistics.memory_bytes / problem.position.extent(0), statistics.n_boxes);
+              statistics.memory_bytes / problem.n, statistics.n_boxes);
   std::fflush(stdout);
 }
 

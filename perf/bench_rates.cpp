@@ -10,13 +10,13 @@
 
 #include "harness.hpp"
 #include "node_arrangements.hpp"
+#include "sum_problem.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <random>
 #include <string_view>
 
 namespace {
@@ -26,29 +26,22 @@ using namespace skein;
 constexpr double viscosity = 1.0;
 constexpr double transfer_work = 0.4;  // as in the table
 
-/// Nodes with random forces; `apart` is the same positions in an array of their own, so that no pair is met once for
-/// both.
-struct Nodes {
-  Sources sources;
-  Vectors apart, velocity;
+/// `apart` is the same positions in an array of their own, so that no pair is met once for both.
+struct Nodes : perf::SumProblem {
+  Vectors apart;
 
   /// @param blob_spread  the blobs of every second node are so much larger
-  Nodes(const std::vector<Vec3>& position, const double blob, const double blob_spread = 0.0) {
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-    std::vector<Vec3> force(position.size());
-    std::vector<double> blobs(position.size(), blob);
-    for (Vec3& f : force) f = {uniform(random), uniform(random), uniform(random)};
+  Nodes(const std::vector<Vec3>& nodes, const double blob_size, const double blob_spread = 0.0)
+      : SumProblem(nodes, blob_size), apart(to_device("apart", nodes)) {
+    std::vector<double> blobs(nodes.size(), blob_size);
     for (std::size_t i = 0; i < blobs.size(); i += 2) blobs[i] *= 1.0 + blob_spread;
-    sources = {to_device("position", position), to_device("force", force), to_device("blob", blobs)};
-    apart = to_device("apart", position);
-    velocity = Vectors("velocity", position.size());
+    blob = to_device("blob", blobs);
   }
-  double n() const { return static_cast<double>(velocity.extent(0)); }
+  double n_pairs() const { return static_cast<double>(n) * n; }
   double time(Mobility& mobility, const ConstVectors& target) const {
-    const int n_calls = on_host<ExecSpace> ? 1 : static_cast<int>(std::clamp(1e9 / (n() * n()), 1.0, 50.0));
+    const int n_calls = on_host<ExecSpace> ? 1 : static_cast<int>(std::clamp(1e9 / n_pairs(), 1.0, 50.0));
     const std::vector<std::function<void()>> bodies = {[&] {
-      for (int call = 0; call < n_calls; ++call) mobility.add_velocity(sources, target, velocity);
+      for (int call = 0; call < n_calls; ++call) mobility.add_velocity(sources(), target, velocity);
     }};
     return perf::median_seconds(3, bodies).front() / n_calls;
   }
@@ -66,9 +59,9 @@ void print_direct_sums(const Nodes& few, const Nodes& many) {
   double least = 0.0;
   for (std::size_t p = 0; p < 2; ++p) {
     DirectMobility mobility(viscosity, precisions[p]);
-    pair[p] = 1e9 * many.time(mobility, many.apart) / (many.n() * many.n());
-    symmetric[p] = 1e9 * many.time(mobility, many.sources.position) / (many.n() * many.n());
-    least = std::max(least, 1e9 * few.time(mobility, few.apart) - pair[p] * few.n() * few.n());
+    pair[p] = 1e9 * many.time(mobility, many.apart) / many.n_pairs();
+    symmetric[p] = 1e9 * many.time(mobility, many.position) / many.n_pairs();
+    least = std::max(least, 1e9 * few.time(mobility, few.apart) - pair[p] * few.n_pairs());
   }
   print_rate("direct_pair", pair);
   print_rate("symmetric_direct_pair", symmetric);
@@ -85,7 +78,7 @@ Evaluation evaluate(const Nodes& nodes, const double tolerance) {
   FmmOptions options;
   options.tolerance = tolerance;
   FmmMobility mobility(viscosity, options);
-  const double seconds = nodes.time(mobility, nodes.sources.position);
+  const double seconds = nodes.time(mobility, nodes.position);
   const FmmStatistics& s = mobility.statistics();
   const double n_surface = 6.0 * (s.plan.order - 1) * (s.plan.order - 1) + 2.0, rank = s.plan.rank;
   return {s.work.near_pairs,
