@@ -141,9 +141,14 @@ void DirectShare::add_for_targets(Communicator& ranks, const Sources& sources, c
     TargetsToOwners(first, edges_of(*owners), ranks.rank()).run(ranks, on_host, velocity);
     return ranks.end_work();
   }
+  collect(ranks, on_host.data(), first, velocity);
+}
+
+void DirectShare::collect(Communicator& ranks, const double* own, const std::vector<int>& first,
+                          const Vectors& velocity) {
   const RankParts parts = three_each(first);
   if (ranks.rank() == 0) gathered_.resize(parts.total());
-  ranks.gather(on_host.data(), parts, gathered_.data());
+  ranks.gather(own, parts, gathered_.data());
   ranks.end_work();
   if (ranks.rank() == 0) use_numbers(gathered_.data(), first, velocity);
 }
@@ -196,11 +201,7 @@ void DirectShare::add_in_rounds(const Space& space, Communicator& ranks, const S
       use_numbers(own, {0, n_own}, velocity);
       return ranks.end_work();
     }
-    const RankParts parts = three_each(first);
-    if (ranks.rank() == 0) gathered_.resize(parts.total());
-    ranks.gather(own, parts, gathered_.data());
-    ranks.end_work();
-    if (ranks.rank() == 0) use_numbers(gathered_.data(), first, velocity);
+    collect(ranks, own, first, velocity);
   }
 }
 

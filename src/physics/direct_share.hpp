@@ -30,6 +30,9 @@ class DirectShare {
   template <class Space>
   void add_in_rounds(const Space& space, Communicator& ranks, const Sources& sources, const Vectors& velocity,
                      double viscosity, Precision precision, const RankParts* owners);
+  /// Velocities of the nodes between two edges each to rank 0, which adds them. @param own  [n_own, 3], column by
+  /// column
+  void collect(Communicator& ranks, const double* own, const std::vector<int>& first, const Vectors& velocity);
 
   Scalars partial_;                            ///< scratch of the teams
   std::vector<HostVectors> blocks_, scratch_;  ///< what own blocks of rounds contribute to all nodes

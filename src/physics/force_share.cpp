@@ -3,6 +3,8 @@
 #include <skein/physics/chain.hpp>
 #include <skein/scene/scene_file.hpp>
 
+#include "node_parts.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -47,17 +49,13 @@ void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const Forc
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const int first = static_cast<int>(nodes.first[rank]), n = static_cast<int>(nodes.count[rank]);
   ranks.begin_work(RankWork::forces);
-  const ExecSpace space;
-  Kokkos::deep_copy(space, Kokkos::subview(force, std::make_pair(first, first + n), Kokkos::ALL()), 0.0);
+  Kokkos::deep_copy(ExecSpace(), rows_of(force, nodes.first[rank], nodes.count[rank]), 0.0);
   for (const auto& part : forces)
     if (displacement.is_allocated())
       part->add_force_changes_on(first, n, time, position, displacement, force);
     else
       part->add_forces_on(first, n, time, position, force);
-  space.fence();
-  std::vector<double*> columns;
-  for (int c = 0; c < 3; ++c) columns.push_back(force.data() + static_cast<std::size_t>(c) * force.stride(1));
-  ranks.gather_to_all(columns, nodes);
+  gather_rows_to_all(ranks, nodes, force);
   ranks.end_work();
 }
 

@@ -53,14 +53,18 @@ Vectors own_rows(const Vectors& part, const RankParts& owners, const int rank) {
   return rows_of(part, 0, owners.count[static_cast<std::size_t>(rank)]);
 }
 
+void gather_rows_to_all(Communicator& ranks, const RankParts& owners, const Vectors& whole) {
+  ExecSpace().fence();
+  std::vector<double*> columns;
+  for (std::size_t c = 0; c < 3; ++c) columns.push_back(whole.data() + c * whole.stride(1));
+  ranks.gather_to_all(columns, owners);
+}
+
 void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole) {
   const auto rank = static_cast<std::size_t>(ranks.rank());
   Kokkos::deep_copy(ExecSpace(), rows_of(whole, owners.first[rank], owners.count[rank]),
                     own_rows(part, owners, ranks.rank()));
-  ExecSpace().fence();
-  std::vector<double*> columns;
-  for (int c = 0; c < 3; ++c) columns.push_back(whole.data() + static_cast<std::size_t>(c) * whole.stride(1));
-  ranks.gather_to_all(columns, owners);
+  gather_rows_to_all(ranks, owners, whole);
 }
 
 void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole) {

@@ -17,6 +17,10 @@ Vectors make_part(const std::string& label, const RankParts& owners, int rank);
 Vectors own_rows(const Vectors& part, const RankParts& owners, int rank);
 Vectors rows_of(const Vectors& whole, std::size_t first, std::size_t n);
 
+/// To be called by all ranks: each has its own rows of an array, and all rows afterwards. @param whole [owners.total(),
+/// 3]
+void gather_rows_to_all(Communicator& ranks, const RankParts& owners, const Vectors& whole);
+
 /// To be called by all ranks. The parts of an array on all ranks, or on rank 0 alone, or from rank 0.
 /// @param whole  [owners.total(), 3]; of rank 0 alone in the latter two
 void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole);

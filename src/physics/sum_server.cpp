@@ -61,15 +61,11 @@ class SumServer {
         compute_forces();
         return true;
       case SumOrder::Kind::add_direct:
-        receive_nodes(ranks_, order_, nodes_);
-        ranks_.begin_work(RankWork::direct_sum);
-        if (look_) look_(nodes_.force);
+        begin_sum(RankWork::direct_sum);
         add_direct();
         return true;
       case SumOrder::Kind::take_nodes:
-        receive_nodes(ranks_, order_, nodes_);
-        ranks_.begin_work(RankWork::taking_nodes);
-        if (look_) look_(nodes_.force);
+        begin_sum(RankWork::taking_nodes);
         take_nodes(sums_[order_.fmm_sum]);
         return true;
       case SumOrder::Kind::compute_fmm:
@@ -97,6 +93,11 @@ class SumServer {
   int exit_code() const { return order_.exit_code; }
 
  private:
+  void begin_sum(const RankWork kind) {
+    receive_nodes(ranks_, order_, nodes_);
+    ranks_.begin_work(kind);
+    if (look_) look_(nodes_.force);
+  }
   void know_scene() {
     std::string text(order_.n_bytes, ' ');
     ranks_.broadcast(text.data(), text.size());
