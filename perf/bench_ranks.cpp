@@ -1,8 +1,11 @@
 // Sums that ranks share, by the wall time of rank 0, and what it takes of each rank. By itself, or under mpirun.
 // Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run] [repeats=N] [tiny]
+//        [mpirun -n N] bench_ranks parts [only=N_NODES] [repeats=N] [tiny]
 // `run` takes steps of RKC2 with the fiber of 23 634 nodes, for a table of its own: seconds an evaluation by part, of
 // which the flow is that of one rank's nodes, and `alone` what rank 0 does for all nodes at the end of a step. Lines of
 // `whole` are of steps whose nodes are all rank 0's, taken in turns with the others.
+// `parts`, by itself: a cube of which each rank has its own nodes and a part of the tree, and no rank has all; a line
+// of its own, with the bytes a node of all that the system gave to the rank with the most, and the sum of velocities.
 // A line of each sum: ranks, threads, nodes, seconds (fastest and median), work and waiting of the busiest rank, and
 // bytes.
 
@@ -14,6 +17,7 @@
 #include "harness.hpp"
 #include "mpi/launch.hpp"
 #include "node_arrangements.hpp"
+#include "rank_parts.hpp"
 #include "rank_steps.hpp"
 #include "sum_problem.hpp"
 
@@ -75,51 +79,64 @@ void measure_fmm(const Problem& problem, SumTeam* team, const int repeats) {
   measure(problem, mobility, team, repeats);
 }
 
-void run(const std::vector<std::string>& parts, SumTeam* team) {
-  const auto asked = [&](const std::string& part) {
-    return std::find(parts.begin(), parts.end(), part) != parts.end();
-  };
-  const bool tiny = asked("tiny");
-  const auto number = [&](const std::string& name, const int otherwise) {
-    for (const std::string& part : parts)
-      if (part.rfind(name + "=", 0) == 0) return std::stoi(part.substr(name.size() + 1));
+/// What was asked for.
+struct Request {
+  std::vector<std::string> words;
+  bool has(const std::string& word) const { return std::find(words.begin(), words.end(), word) != words.end(); }
+  int number(const std::string& name, const int otherwise) const {
+    for (const std::string& word : words)
+      if (word.rfind(name + "=", 0) == 0) return std::stoi(word.substr(name.size() + 1));
     return otherwise;
-  };
-  const int n_cube = number("only", tiny ? 2000 : 1000000);
-  const auto repeats = [&](const int otherwise) { return number("repeats", tiny ? 1 : otherwise); };
+  }
+  bool is_tiny() const { return has("tiny"); }
+  int n_cube() const { return number("only", is_tiny() ? 2000 : 1000000); }
+  int repeats(const int otherwise) const { return number("repeats", is_tiny() ? 1 : otherwise); }
+};
+
+void run(const Request& asked, SumTeam* team) {
+  const bool tiny = asked.is_tiny();
+  const int n_cube = asked.n_cube();
   perf::print_context();
   std::printf(
       "sum,ranks,threads,nodes,fastest_s,median_s,busiest_work_s,rank0_waits_s,broadcast_B,exchanged_B,gathered_B,"
       "messages,"
       "tree_s,sort_s,far_s,leaf_s,bytes_per_node,boxes\n");
   const int n_fiber = tiny ? 3600 : 23634;
-  if (tiny || asked("direct")) {
+  if (tiny || asked.has("direct")) {
     const Problem problem("direct", perf::make_straight(n_fiber), perf::fiber_blob);
     DirectMobility mobility(viscosity, Precision::in_double, KernelPath::automatic, team);
-    measure(problem, mobility, team, repeats(5));
+    measure(problem, mobility, team, asked.repeats(5));
   }
-  if (tiny || asked("fiber")) {
+  if (tiny || asked.has("fiber")) {
     const Problem problem("fiber", perf::make_straight(n_fiber), perf::fiber_blob);
-    measure_fmm(problem, team, repeats(60));
+    measure_fmm(problem, team, asked.repeats(60));
   }
-  if (tiny || asked("run")) perf::measure_steps(tiny ? 120 : 1313, team, repeats(60));
-  if (tiny || asked("cube")) {
+  if (tiny || asked.has("run")) perf::measure_steps(tiny ? 120 : 1313, team, asked.repeats(60));
+  if (tiny || asked.has("cube")) {
     const Problem problem("cube", perf::make_uniform(n_cube), 0.1 / std::cbrt(n_cube));
-    measure_fmm(problem, team, repeats(std::clamp(4000000 / n_cube, 3, 40)));
+    measure_fmm(problem, team, asked.repeats(std::clamp(4000000 / n_cube, 3, 40)));
   }
 }
 
-int run_on_ranks(const std::vector<std::string>& parts) {
+int run_on_ranks(const Request& asked) {
   Communicator* const ranks = join_ranks();
   const Runtime runtime;
+  if (asked.has("parts")) {
+    if (ranks == nullptr || ranks->rank() == 0)
+      std::printf(
+          "sum,ranks,threads,nodes,fastest_s,median_s,tree_s,sort_s,far_s,leaf_s,peak_bytes_per_node,"
+          "method_bytes_per_node,boxes,velocities\n");
+    perf::measure_parts(asked.n_cube(), ranks, asked.repeats(3));
+    return 0;
+  }
   if (ranks != nullptr && ranks->rank() > 0) return serve_sums(*ranks);
   if (ranks == nullptr) {
-    run(parts, nullptr);
+    run(asked, nullptr);
     return 0;
   }
   {
     SumTeam team(*ranks);
-    run(parts, &team);
+    run(asked, &team);
   }
   dismiss_ranks(*ranks, 0);
   return 0;
@@ -129,5 +146,5 @@ int run_on_ranks(const std::vector<std::string>& parts) {
 }  // namespace skein
 
 int main(int argc, char** argv) {
-  return skein::leave_ranks(skein::run_on_ranks(std::vector<std::string>(argv + 1, argv + argc)));
+  return skein::leave_ranks(skein::run_on_ranks({std::vector<std::string>(argv + 1, argv + argc)}));
 }

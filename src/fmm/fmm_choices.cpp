@@ -15,6 +15,10 @@ std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path, Communicator* ranks)
   return make_device_fmm_sum();
 }
 
+bool FmmSum::take_part(const Sources&, const RankParts&) {
+  throw Error(ExitCode::internal, "a sum of one process has no parts");
+}
+
 OctreeRules make_octree_rules(const FmmOptions& options, const FmmPlan& plan) {
   OctreeRules rules;
   rules.leaf_size = plan.leaf_size;

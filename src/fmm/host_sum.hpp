@@ -20,8 +20,9 @@ class HostWorkers {
 
   void take(const Space&, const Octree<Space>&) { near_matches_ = {}; }
   /// Who meets whom, where each pair is to be met once; else all of U is summed by targets.
-  void meet_once(const Octree<Space>& tree, const RankShares* shares) {
-    if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree, shares);
+  /// @param shares, first_tile  see make_near_matches
+  void meet_once(const Octree<Space>& tree, const RankShares* shares, const std::vector<int>* first_tile = nullptr) {
+    if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree, shares, first_tile);
   }
   void meet_twice() { near_matches_ = {}; }
 

@@ -9,18 +9,23 @@
 namespace skein {
 namespace {
 
-/// Even parts of whole packs, but for the last.
+/// Of a leaf's tiles but the last: even parts of whole packs.
+int tile_size(const int n_nodes) {
+  const int n_tiles = math::ceil_div(n_nodes, side_nodes);
+  return math::ceil_div(n_nodes, n_tiles * tile_step) * tile_step;
+}
+
 void cut_leaf(const IndexRange nodes, std::vector<IndexRange>& tiles) {
-  const int n_tiles = math::ceil_div(nodes.count, side_nodes);
-  const int size = math::ceil_div(nodes.count, n_tiles * tile_step) * tile_step;
+  const int size = tile_size(nodes.count);
   for (int i = 0; i < nodes.count; i += size) tiles.push_back({nodes.first + i, math::smaller(size, nodes.count - i)});
 }
 
 /// Matches of equal distance d = other - one whose first tiles lie in the same half of a period of 2 d have no tile in
-/// common, so that threads seldom wait for each other.
-std::uint64_t place_of(const Match& match) {
-  const auto distance = static_cast<std::uint64_t>(match.other - match.one);
-  const auto one = static_cast<std::uint64_t>(match.one);
+/// common, so that threads seldom wait for each other. @param one_tile, other_tile  numbers among those of the whole
+/// tree
+std::uint64_t place_of(const int one_tile, const int other_tile) {
+  const auto distance = static_cast<std::uint64_t>(other_tile - one_tile);
+  const auto one = static_cast<std::uint64_t>(one_tile);
   const std::uint64_t half = distance == 0 ? 0 : one / distance % 2;
   return (2 * distance + half) << 31 | one;
 }
@@ -29,12 +34,12 @@ std::uint64_t place_of(const Match& match) {
 /// that is not a leaf gets an expansion from those it sends sources to.
 struct PartnerSinks {
   int leaf = 0;
-  EntrySink<int> partners;  ///< from itself on
+  EntrySink<int> partners;  ///< from itself on, and those of other ranks
   EntrySink<IndexRange> one_way;
   void near(const int b, const Box& box) {
     if (!box.is_leaf())
       one_way.add(box.sources);
-    else if (b >= leaf)
+    else if (b >= leaf || box.targets.count == 0)
       partners.add(b);
   }
   void fine(int /*b*/) const {}
@@ -71,41 +76,58 @@ void list_partners(const HostOctree& tree, Lists<int, HostSpace>& partners, List
   }
 }
 
+/// Leaves with tiles: those with targets, and those of other ranks that meet them.
+std::vector<int> list_leaves(const HostOctree& tree, const Lists<int, HostSpace>& partners) {
+  std::vector<int> leaves(tree.target_leaves.data(), tree.target_leaves.data() + tree.n_target_leaves);
+  for (int k = 0; k < partners.n_entries; ++k)
+    if (tree.box(partners.entries(k)).targets.count == 0) leaves.push_back(partners.entries(k));
+  if (leaves.size() == static_cast<std::size_t>(tree.n_target_leaves)) return leaves;
+  std::sort(leaves.begin(), leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  return leaves;
+}
+
 }  // namespace
 
-NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares) {
+int count_tiles(const int n_nodes) { return n_nodes == 0 ? 0 : math::ceil_div(n_nodes, tile_size(n_nodes)); }
+
+NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares, const std::vector<int>* first_number) {
   NearMatches near;
   const int n_leaves = tree.n_target_leaves;
   Lists<int, HostSpace> partners;
   list_partners(tree, partners, near.one_way);
-  std::vector<int> place_of_box(static_cast<std::size_t>(tree.n_boxes()));  // among the leaves with targets
-  std::vector<int> first_tile;
-  for (int leaf = 0; leaf < n_leaves; ++leaf) {
-    place_of_box[static_cast<std::size_t>(tree.target_leaves(leaf))] = leaf;
+  std::vector<int> place_of_box(static_cast<std::size_t>(tree.n_boxes()));  // among the leaves with tiles
+  std::vector<int> first_tile, number;                                      // the latter empty: tiles' own places
+  for (const int box : list_leaves(tree, partners)) {
+    place_of_box[static_cast<std::size_t>(box)] = static_cast<int>(first_tile.size());
     first_tile.push_back(static_cast<int>(near.tiles.size()));
-    cut_leaf(tree.target_leaf(leaf).sources, near.tiles);
+    cut_leaf(tree.box(box).sources, near.tiles);
+    if (first_number == nullptr) continue;
+    for (int next = (*first_number)[static_cast<std::size_t>(box)]; number.size() < near.tiles.size(); ++next)
+      number.push_back(next);
   }
   first_tile.push_back(static_cast<int>(near.tiles.size()));
-  const auto tiles_of = [&](const int leaf) {
-    const auto i = static_cast<std::size_t>(leaf);
+  const auto tiles_of = [&](const int box) {
+    const auto i = static_cast<std::size_t>(place_of_box[static_cast<std::size_t>(box)]);
     return IndexRange{first_tile[i], first_tile[i + 1] - first_tile[i]};
   };
   const auto is_own = [&](const int tile) {
     return shares == nullptr || shares->has_target(near.tiles[static_cast<std::size_t>(tile)].first);
   };
   for (int leaf = 0; leaf < n_leaves; ++leaf) {
-    const IndexRange own = tiles_of(leaf);
-    for (const int box : partners.of(leaf)) {
-      const int partner = place_of_box[static_cast<std::size_t>(box)];
-      const IndexRange others = tiles_of(partner);
+    const int box = tree.target_leaves(leaf);
+    for (const int partner : partners.of(leaf)) {
+      const IndexRange own = tiles_of(math::smaller(box, partner)), others = tiles_of(math::larger(box, partner));
       if (!is_own(own.first) && !is_own(others.first)) continue;
       for (int i = own.first; i < own.first + own.count; ++i)
-        for (int j = partner == leaf ? i : others.first; j < others.first + others.count; ++j)
+        for (int j = partner == box ? i : others.first; j < others.first + others.count; ++j)
           near.matches.push_back({i, j});
     }
   }
+  const auto number_of = [&](const int tile) { return number.empty() ? tile : number[static_cast<std::size_t>(tile)]; };
+  const auto place = [&](const Match& match) { return place_of(number_of(match.one), number_of(match.other)); };
   std::sort(near.matches.begin(), near.matches.end(),
-            [](const Match& a, const Match& b) { return place_of(a) < place_of(b); });
+            [&](const Match& a, const Match& b) { return place(a) < place(b); });
   count_turns(static_cast<int>(near.tiles.size()), near.matches);
   std::vector<char> is_met(near.tiles.size());
   for (const Match& match : near.matches)
@@ -117,7 +139,7 @@ NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares) 
     near.packed_first.push_back(near.n_packed() + (is_met[tile] != 0 ? n_places : 0));
   }
   for (int leaf = 0; leaf < n_leaves; ++leaf)
-    near.leaf_first.push_back(near.packed_first[static_cast<std::size_t>(first_tile[static_cast<std::size_t>(leaf)])]);
+    near.leaf_first.push_back(near.packed_first[static_cast<std::size_t>(tiles_of(tree.target_leaves(leaf)).first)]);
   return near;
 }
 

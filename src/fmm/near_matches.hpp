@@ -25,9 +25,16 @@ struct NearMatches {
   int n_packed() const { return packed_first.back(); }
 };
 
-/// @param tree    of nodes that are sources and targets alike
+/// @param tree    of nodes that are sources and targets alike; or a rank's part of one, where boxes of others have no
+///                targets
 /// @param shares  only matches in which a tile has targets of this rank, in the same order; such tiles receive all they
 ///                would of all matches. Null: all
-NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares = nullptr);
+/// @param first_tile  per box, of a part of a tree: the number of a leaf's first tile among those of the whole; null:
+///                    this is the whole
+NearMatches make_near_matches(const HostOctree& tree, const RankShares* shares = nullptr,
+                              const std::vector<int>* first_tile = nullptr);
+
+/// Into how many tiles a leaf of so many nodes is cut.
+int count_tiles(int n_nodes);
 
 }  // namespace skein

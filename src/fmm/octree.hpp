@@ -86,6 +86,9 @@ using HostOctree = Octree<HostSpace>;
 template <class Space>
 OctreeCube choose_cube(const Space& space, Octree<Space>& tree, const ConstVectorView<Space>& source,
                        const ConstVectorView<Space>& target);
+/// Widens bounds by nodes.
+template <class Space>
+void widen_bounds(const Space& space, const ConstVectorView<Space>& nodes, NodeBounds& bounds);
 /// ... and the keys of every stride-th node, in the order of the nodes.
 template <class Space>
 void make_keys(const Space& space, const ConstVectorView<Space>& nodes, const KeyOf& key_of, int stride,

@@ -47,18 +47,6 @@ struct FindBounds {
 };
 
 template <class Space>
-void widen(const Space& space, const Nodes<Space>& nodes, NodeBounds& bounds) {
-  using Find = FindBounds<Space>;
-  const Calls runs{math::ceil_div(nodes.extent_int(0), Find::run), 0.7 * Find::run};
-  for (int c = 0; c < 3; ++c) {
-    typename Find::Extremes::value_type found;
-    launch_reduction<Space>("skein::find_bounds", space, runs, Find{nodes, c}, typename Find::Extremes(found));
-    bounds.low[c] = std::min(bounds.low[c], found.min_val);
-    bounds.high[c] = std::max(bounds.high[c], found.max_val);
-  }
-}
-
-template <class Space>
 SampledCells sample_cells(const Space& space, const Nodes<Space>& nodes, const KeyOf& key_of, const int stride,
                           KeyedOrder<Space>& keyed, SortSpace<Space>& memory) {
   SampledCells cells;
@@ -82,6 +70,18 @@ SampledCells sample_cells(const Space& space, const Nodes<Space>& nodes, const K
 }  // namespace
 
 template <class Space>
+void widen_bounds(const Space& space, const ConstVectorView<Space>& nodes, NodeBounds& bounds) {
+  using Find = FindBounds<Space>;
+  const Calls runs{math::ceil_div(nodes.extent_int(0), Find::run), 0.7 * Find::run};
+  for (int c = 0; c < 3; ++c) {
+    typename Find::Extremes::value_type found;
+    launch_reduction<Space>("skein::find_bounds", space, runs, Find{nodes, c}, typename Find::Extremes(found));
+    bounds.low[c] = std::min(bounds.low[c], found.min_val);
+    bounds.high[c] = std::max(bounds.high[c], found.max_val);
+  }
+}
+
+template <class Space>
 void make_keys(const Space& space, const ConstVectorView<Space>& nodes, const KeyOf& key_of, const int stride,
                const KeyedOrder<Space>& keyed) {
   const auto key = keyed.key;
@@ -98,8 +98,8 @@ template <class Space>
 OctreeCube choose_cube(const Space& space, Octree<Space>& tree, const ConstVectorView<Space>& source,
                        const ConstVectorView<Space>& target) {
   NodeBounds bounds;
-  widen<Space>(space, source, bounds);
-  if (!tree.same_nodes) widen<Space>(space, target, bounds);
+  widen_bounds<Space>(space, source, bounds);
+  if (!tree.same_nodes) widen_bounds<Space>(space, target, bounds);
   const Nodes<Space>& more = source.extent(0) >= target.extent(0) ? source : target;
   return choose_octree_cube(bounds, more.extent_int(0), tree.rules, [&](const KeyOf& key_of, const int stride) {
     return sample_cells<Space>(space, more, key_of, stride, tree.sources, tree.sort_memory);
@@ -107,6 +107,7 @@ OctreeCube choose_cube(const Space& space, Octree<Space>& tree, const ConstVecto
 }
 
 #define SKEIN_INSTANTIATE(S)                                                                                \
+  template void widen_bounds<S>(const S&, const ConstVectorView<S>&, NodeBounds&);                          \
   template void make_keys<S>(const S&, const ConstVectorView<S>&, const KeyOf&, int, const KeyedOrder<S>&); \
   template OctreeCube choose_cube<S>(const S&, Octree<S>&, const ConstVectorView<S>&, const ConstVectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)

@@ -15,7 +15,7 @@ struct Box {
   int level = 0;
   int parent = -1;
   int first_child = 0;
-  int n_children = 0;           ///< 0: a leaf
+  int n_children = 0;           ///< 0: a leaf; -1: it has some, of which only another rank knows
   int octant = 0;               ///< in the parent: bit c is set on the upper side of axis c
   int cell[3] = {};             ///< position in the grid of its level
   IndexRange sources, targets;  ///< in the order of the tree

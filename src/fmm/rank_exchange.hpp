@@ -5,6 +5,8 @@
 #include "fmm/passes.hpp"
 #include "fmm/rank_shares.hpp"
 
+#include <utility>
+
 namespace skein {
 
 /// What ranks that share a sum tell each other.
@@ -12,6 +14,11 @@ class RankExchange {
  public:
   /// Divides a new tree, and gives back what this rank has no use for.
   void share(Communicator& ranks, HostOctree& tree, const FmmPlan& plan, bool is_symmetric);
+  /// Of a tree of which each rank has a part.
+  void share(Communicator& ranks, RankShares shares) {
+    ranks_ = &ranks;
+    shares_ = std::move(shares);
+  }
   const RankShares& shares() const { return shares_; }
   PassedBoxes boxes() const { return {shares_.source_boxes, shares_.target_boxes, shares_.boxes_of_all, {}}; }
 

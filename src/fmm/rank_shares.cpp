@@ -163,6 +163,13 @@ std::vector<IndexRange> find_source_runs(const HostOctree& tree, const RankShare
 
 }  // namespace
 
+void RankShares::count_boxes() {
+  n_boxes = static_cast<double>(boxes_of_all.size());
+  for (const IndexRange& boxes : source_boxes) n_boxes += boxes.count;
+  for (const std::vector<int>& boxes : received) n_boxes += static_cast<double>(boxes.size());
+  for (const IndexRange& boxes : target_boxes) n_boxes += boxes.count;
+}
+
 RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, const bool is_symmetric, const int rank,
                       const int n_ranks) {
   RankShares shares;
@@ -197,10 +204,7 @@ RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, const bool is
   }
   needs.list(shares);
   shares.source_runs = find_source_runs(tree, shares);
-  shares.n_boxes = static_cast<double>(shares.boxes_of_all.size());
-  for (const IndexRange& boxes : shares.source_boxes) shares.n_boxes += boxes.count;
-  for (const std::vector<int>& boxes : shares.received) shares.n_boxes += static_cast<double>(boxes.size());
-  for (const IndexRange& boxes : shares.target_boxes) shares.n_boxes += boxes.count;
+  shares.count_boxes();
   return shares;
 }
 

@@ -24,6 +24,9 @@ struct RankShares {
   double n_boxes = 0.0;                          ///< whose coefficients it has, of sources and for targets
   double balance = 1.0;                          ///< the largest work of a rank over the mean
 
+  /// After all boxes are known.
+  void count_boxes();
+
   IndexRange own_targets() const { return range(first_target); }
   IndexRange own_sources() const { return range(first_source); }
   double n_looked_at() const {

@@ -15,12 +15,15 @@
 namespace skein {
 namespace {
 
+std::vector<int> edges_of(const RankParts& owners) {
+  std::vector<int> edges(owners.first.begin(), owners.first.end());
+  edges.push_back(static_cast<int>(owners.total()));
+  return edges;
+}
+
 /// Edges of as many even parts of n things.
 std::vector<int> cut_evenly(const int n, const int n_parts) {
-  std::vector<int> edges;
-  for (int part = 0; part <= n_parts; ++part)
-    edges.push_back(static_cast<int>(static_cast<std::int64_t>(n) * part / n_parts));
-  return edges;
+  return edges_of(RankParts::evenly(static_cast<std::size_t>(n), n_parts));
 }
 
 int count_of(const std::vector<int>& first, const int rank) {
@@ -46,12 +49,6 @@ void use_numbers(const double* number, const std::vector<int>& first_node, const
   }
   const Vectors on_device = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), sum);
   combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, on_device});
-}
-
-std::vector<int> edges_of(const RankParts& owners) {
-  std::vector<int> edges(owners.first.begin(), owners.first.end());
-  edges.push_back(static_cast<int>(owners.total()));
-  return edges;
 }
 
 /// Velocities of consecutive targets, from the ranks that have summed them to those that own them.

@@ -62,15 +62,16 @@ struct SumOrder {
   Precision precision = Precision::in_double;  ///< add_direct
   bool by_teams = false;
 
+  bool is_divided = false;   ///< take_nodes: each rank takes some, of a tree of which it has a part
   int fmm_sum = 0;           ///< take_nodes, compute_fmm: which of the run's
   std::int64_t n_steps = 0;  ///< that have begun
   bool is_in_step = false;
   FmmOptions options;  ///< compute_fmm
   FmmPlan plan;
 
-  bool is_delivered = false;        ///< add_direct, compute_fmm: to the ranks that own the targets, not to rank 0
-  int array = 0;                    ///< evaluate: positions; norm_of_parts, gather_parts, scatter_parts
-  int velocity = 0;                 ///< evaluate, and add_direct that is delivered: an array
+  bool is_delivered = false;  ///< add_direct, take_nodes, compute_fmm: to the ranks that own the targets, not to rank 0
+  int array = 0;              ///< evaluate: positions; norm_of_parts, gather_parts, scatter_parts
+  int velocity = 0;           ///< evaluate, and add_direct that is delivered: an array
   int n_sampled = 0, n_chosen = 0;  ///< sample_fmm
 
   /// Before the order itself is obeyed.
@@ -114,6 +115,9 @@ struct Delivery {
 
   Vectors own_rows() const;
 };
+
+/// Some of the sources, which are their own targets.
+Sources rows_of(const Sources& sources, std::size_t first, std::size_t n);
 
 /// Rank 0's side of what the others are told.
 struct TeamLink {

@@ -23,6 +23,12 @@ void send_vectors(Communicator& ranks, const ConstVectors& vectors) {
   ranks.broadcast(const_cast<double*>(on_host.data()), on_host.size() * sizeof(double));
 }
 
+Sources rows_of(const Sources& sources, const std::size_t first, const std::size_t n) {
+  const auto rows = std::make_pair(first, first + n);
+  return {Kokkos::subview(sources.position, rows, Kokkos::ALL()), Kokkos::subview(sources.force, rows, Kokkos::ALL()),
+          Kokkos::subview(sources.blob, rows)};
+}
+
 Vectors Delivery::own_rows() const { return rows_of(room, 0, owners.count[0]); }
 
 void TeamLink::send(SumOrder& order) {

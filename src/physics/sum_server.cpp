@@ -156,7 +156,14 @@ class SumServer {
     if (served.n_steps != order_.n_steps) served.sum->begin_step();
     served.n_steps = order_.n_steps;
     if (!order_.is_in_step) served.sum->end_step();
-    served.sum->take(nodes_.sources(), nodes_.target);
+    if (order_.is_divided) {
+      const RankParts parts = order_.is_delivered ? scenes_.at(order_.scene).parts.owners()
+                                                  : RankParts::evenly(nodes_.position.extent(0), ranks_.size());
+      const auto rank = static_cast<std::size_t>(ranks_.rank());
+      served.sum->take_part(rows_of(nodes_.sources(), parts.first[rank], parts.count[rank]), parts);
+    } else {
+      served.sum->take(nodes_.sources(), nodes_.target);
+    }
     ranks_.end_work();
   }
 

@@ -167,6 +167,37 @@ TEST(OwnedNodes, HaveTheVelocitiesOfWholeArrays) {
   }
 }
 
+/// So many nodes that each rank makes a part of the tree: velocities are those of one process, which has it whole.
+TEST(OwnedNodes, HaveTheVelocitiesOfOneProcessWhereTreesAreInParts) {
+  SceneConfig scene = make_scene(5500, SumMethod::fmm);
+  scene.hydrodynamics.check_every = 2;
+  Case made(scene);
+  Physics alone = make_physics(scene);
+  FiberDynamics dynamics(alone);
+  const Nodes start = alone.make_start_nodes(1);
+  const Vectors position = to_device("position", start), velocity("velocity", start.size());
+  const Vectors part = made.part_of(start), velocity_part = made.parts().make("velocity", made.n_nodes);
+  for (RightHandSide* const each :
+       {static_cast<RightHandSide*>(&dynamics), static_cast<RightHandSide*>(&made.dynamics)})
+    each->begin_step();
+  for (int i = 0; i < 3; ++i) {
+    dynamics.compute_velocity(0.1, position, velocity);
+    made.dynamics.compute_velocity(0.1, part, velocity_part);
+    ASSERT_TRUE(is_same(made.whole_of(velocity_part), read(velocity))) << i;
+    whole_vectors().combine(position, {{1.0, position}, {1e-5, velocity}});
+    made.parts().combine(part, {{1.0, part}, {1e-5, velocity_part}});
+  }
+  EXPECT_NE(test::find_team()->partition().find("each rank has a part"), std::string::npos);
+  EXPECT_GT(made.physics.mobility->error_record().n_checks, 1);
+  EXPECT_EQ(made.physics.mobility->error_record().largest, alone.mobility->error_record().largest);
+  made.dynamics.end_step();
+  dynamics.end_step();
+  made.dynamics.compute_velocity(0.1, position, velocity);  // of whole arrays
+  const Nodes with_ranks = read(velocity);
+  dynamics.compute_velocity(0.1, position, velocity);
+  EXPECT_TRUE(is_same(with_ranks, read(velocity)));
+}
+
 /// Integrators that work with whole arrays, as those of one process.
 class WholeDynamics final : public RightHandSideDecorator {
  public:

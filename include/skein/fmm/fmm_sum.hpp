@@ -34,13 +34,17 @@ class FmmSum {
 
   /// Takes the arrays of the next sum; false where a position is not finite.
   virtual bool take(const Sources& sources, const ConstVectors& target) = 0;
+  /// The same for nodes of which each rank has its own, and needs no others: sources that are the targets. To be called
+  /// by all ranks. @param own  rows parts.first[rank] .. of all nodes  @param parts  of all nodes, one behind the other
+  /// @throws Error(internal) where no ranks share the sum
+  virtual bool take_part(const Sources& own, const RankParts& parts);
   virtual double largest_blob() const = 0;
   /// From here to the end of the step nodes move little from sum to sum, and a tree may serve several.
   virtual void begin_step() = 0;
   virtual void end_step() noexcept = 0;
   /// The sum after a plan; false where a direct sum is cheaper and may be used.
   virtual bool compute(const FmmOptions& options, const FmmPlan& plan, double viscosity) = 0;
-  /// velocity += the sum
+  /// velocity += the sum: on rank 0 all of it, or on all ranks the rows of `owners`
   virtual void add_to(const Vectors& velocity) const = 0;
   /// The sum at some targets.
   virtual std::vector<Vec3> sample(const EvenSample& sample) const = 0;

@@ -12,6 +12,8 @@ struct RankParts {
 
   /// One behind the other.
   static RankParts behind_each_other(std::vector<std::size_t> count);
+  /// As many for each rank, one more or less.
+  static RankParts evenly(std::size_t n, int n_ranks);
   std::size_t total() const { return count.empty() ? 0 : first.back() + count.back(); }
 };
 
@@ -64,6 +66,12 @@ class Communicator {
   /// Tells rank 0 why this rank cannot go on, and waits to be ended.
   [[noreturn]] virtual void fail(int exit_code, const std::string& message) = 0;
 };
+
+/// To be called by all ranks: each number becomes the sum over ranks, added up in their order.
+void add_up_to_all(Communicator& ranks, std::vector<double>& numbers);
+
+/// To be called by all ranks, with as many numbers each: those of rank 0, then those of rank 1, and so on.
+std::vector<double> list_from_all(Communicator& ranks, const std::vector<double>& own);
 
 /// A process by itself: what is sent to rank 0, or by it, is there already.
 class LoneProcess final : public Communicator {
