@@ -44,6 +44,14 @@ ForceShare::ForceShare(const SceneConfig& asked, const int n_ranks) {
 
 void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const ForceList& forces, const double time,
                          const ConstVectors& position, const ConstVectors& displacement, const Vectors& force) {
+  compute_own(ranks, nodes, forces, time, position, displacement, force);
+  ranks.begin_work(RankWork::forces);
+  gather_rows_to_all(ranks, nodes, force);
+  ranks.end_work();
+}
+
+void ForceShare::compute_own(Communicator& ranks, const RankParts& nodes, const ForceList& forces, const double time,
+                             const ConstVectors& position, const ConstVectors& displacement, const Vectors& force) {
   SKEIN_REQUIRE(force.extent(0) == nodes.total() && position.extent(0) == nodes.total(),
                 "positions, forces and the nodes of the scene differ in number");
   const auto rank = static_cast<std::size_t>(ranks.rank());
@@ -55,7 +63,6 @@ void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const Forc
       part->add_force_changes_on(first, n, time, position, displacement, force);
     else
       part->add_forces_on(first, n, time, position, force);
-  gather_rows_to_all(ranks, nodes, force);
   ranks.end_work();
 }
 

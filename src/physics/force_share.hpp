@@ -27,6 +27,9 @@ struct ForceShare {
   /// @param displacement  empty: forces, not changes of them
   static void compute(Communicator& ranks, const RankParts& nodes, const ForceList& forces, double time,
                       const ConstVectors& position, const ConstVectors& displacement, const Vectors& force);
+  /// The same on this rank's nodes; others' rows stay as they are.
+  static void compute_own(Communicator& ranks, const RankParts& nodes, const ForceList& forces, double time,
+                          const ConstVectors& position, const ConstVectors& displacement, const Vectors& force);
 };
 
 /// Nodes of consecutive sections for each rank, with about as many springs.

@@ -99,6 +99,7 @@ Sources OwnedNodes::compute_forces(const Physics& physics, const double time, co
   Part &at = part_of(position), &result = part_of(velocity);
   note_change(result);
   link_.held = {};
+  link_.own_forces = {};
   order_.time = time;
   order_.velocity = result.number;
   position_ = {};
@@ -110,7 +111,8 @@ Sources OwnedNodes::compute_forces(const Physics& physics, const double time, co
   position_ = all;
   evaluated_ = at.own.data();
   if (owners_.count[0] > 0) flow_.compute_velocity(time, own_rows(at.own), own_rows(velocity_));
-  ForceShare::compute(link_.ranks, owners_, physics.forces, time, position_, {}, force);
+  ForceShare::compute_own(link_.ranks, owners_, physics.forces, time, position_, {}, force);
+  link_.own_forces = {&owners_, forces_->scene(), force};
   link_.held = {position_.data(), force.data(), position_.extent_int(0)};
   return {position_, force, physics.blob, true};
 }
@@ -125,7 +127,10 @@ void OwnedNodes::add_velocity(const Physics& physics, const Sources& sources, co
   Delivery delivery{owners_, forces_->scene(), result.number, velocity_, complete};
   struct Lent {
     TeamLink& link;
-    ~Lent() { link.delivery = nullptr; }
+    ~Lent() {
+      link.delivery = nullptr;
+      link.own_forces = {};
+    }
   };
   {
     const Lent lent{link_};

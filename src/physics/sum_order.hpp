@@ -69,6 +69,8 @@ struct SumOrder {
   FmmOptions options;  ///< compute_fmm
   FmmPlan plan;
 
+  bool gathers_forces = false;  ///< first of all: those of the last `evaluate`, from their owners to all ranks
+  int forces_scene = 0;         ///< of which scene that was
   bool is_delivered = false;  ///< add_direct, take_nodes, compute_fmm: to the ranks that own the targets, not to rank 0
   int array = 0;              ///< evaluate: positions; norm_of_parts, gather_parts, scatter_parts
   int velocity = 0;           ///< evaluate, and add_direct that is delivered: an array
@@ -104,6 +106,13 @@ struct HeldNodes {
   }
 };
 
+/// Forces of which each rank has those on its own nodes.
+struct OwnForces {
+  const RankParts* owners = nullptr;  ///< null: there are none
+  int scene = 0;
+  Vectors force;  ///< [n_nodes, 3], of rank 0
+};
+
 /// A sum in work whose targets are nodes that ranks own: each gets the velocities of its own.
 struct Delivery {
   const RankParts& owners;
@@ -125,18 +134,26 @@ struct TeamLink {
 
   Communicator& ranks;
   HeldNodes held;
+  OwnForces own_forces;
   Delivery* delivery = nullptr;  ///< null: rank 0 has all velocities in the end
   bool has_parts = false;        ///< ranks have been told to make parts of arrays
 
   /// To be done before the next order. Nothing is sent.
   void note(const PartWork& work) { works_.push_back(work); }
   void send(SumOrder& order);
+  /// For who looks at forces that he has been given: other nodes' come from their owners. Of other arrays nothing.
+  void gather_forces(const ConstVectors& force);
+  /// The same with an order, which is sent.
+  void send_gathering(SumOrder& order, const ConstVectors& force);
 
  private:
+  void post(SumOrder& order);
+
   std::vector<PartWork> works_;
 };
 
-/// Rank 0's side: completes the order, and sends it with the arrays that the others do not hold.
+/// Rank 0's side: completes the order, and sends it with the arrays that the others do not hold; of a sum that is
+/// divided (order.is_divided) each rank needs the forces on its own nodes only.
 void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const ConstVectors& target);
 void send_vectors(Communicator& ranks, const ConstVectors& vectors);
 

@@ -32,6 +32,11 @@ Sources rows_of(const Sources& sources, const std::size_t first, const std::size
 Vectors Delivery::own_rows() const { return rows_of(room, 0, owners.count[0]); }
 
 void TeamLink::send(SumOrder& order) {
+  order.gathers_forces = false;
+  post(order);
+}
+
+void TeamLink::post(SumOrder& order) {
   // What does not go with the order goes before it: nothing is sent where work is noted, so that notes can be taken
   // when other ranks are lost.
   std::size_t n_sent = 0;
@@ -46,6 +51,21 @@ void TeamLink::send(SumOrder& order) {
   ranks.broadcast(&order, sizeof order);
 }
 
+void TeamLink::send_gathering(SumOrder& order, const ConstVectors& force) {
+  order.gathers_forces = own_forces.owners != nullptr && own_forces.force.data() == force.data();
+  order.forces_scene = own_forces.scene;
+  post(order);
+  if (order.gathers_forces) gather_rows_to_all(ranks, *own_forces.owners, own_forces.force);
+  if (order.gathers_forces) own_forces = {};
+}
+
+void TeamLink::gather_forces(const ConstVectors& force) {
+  if (own_forces.owners == nullptr || own_forces.force.data() != force.data()) return;
+  SumOrder order;
+  order.kind = SumOrder::Kind::work_on_parts;
+  send_gathering(order, force);
+}
+
 void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const ConstVectors& target) {
   order.n_sources = sources.position.extent_int(0);
   order.n_targets = target.extent_int(0);
@@ -57,7 +77,10 @@ void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const C
   }
   order.are_held = link.held.are(sources);
   link.held = {};
-  link.send(order);
+  if (order.is_divided && order.are_held)
+    link.send(order);
+  else
+    link.send_gathering(order, sources.force);
   Communicator& ranks = link.ranks;
   if (!order.are_held) {
     send_vectors(ranks, sources.position);

@@ -47,6 +47,7 @@ class SumServer {
   bool serve_next() {
     ranks_.broadcast(&order_, sizeof order_);
     for (std::size_t w = 0; w < order_.n_works; ++w) work(order_.works[w]);
+    if (order_.gathers_forces) gather_rows_to_all(ranks_, scenes_.at(order_.forces_scene).share.nodes, nodes_.force);
     switch (order_.kind) {
       case SumOrder::Kind::dismiss:
         return false;
@@ -129,7 +130,7 @@ class SumServer {
     gather_parts_to_all(ranks_, share.nodes, parts[order_.array], nodes_.position);
     const Vectors velocity = parts.rows(order_.velocity);
     if (velocity.extent(0) > 0) share.flow->compute_velocity(order_.time, parts.rows(order_.array), velocity);
-    ForceShare::compute(ranks_, share.nodes, share.forces, order_.time, nodes_.position, {}, nodes_.force);
+    ForceShare::compute_own(ranks_, share.nodes, share.forces, order_.time, nodes_.position, {}, nodes_.force);
   }
   void add_direct() {
     const NodeParts* const parts = order_.is_delivered ? &scenes_.at(order_.scene).parts : nullptr;

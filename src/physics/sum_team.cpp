@@ -170,6 +170,8 @@ void SumTeam::complete(const Vectors& velocity) {
   if (delivery != nullptr && delivery->room.data() == velocity.data()) delivery->complete();
 }
 
+void SumTeam::complete_forces(const ConstVectors& force) { parts_->link.gather_forces(force); }
+
 bool SumTeam::advances_parts() const { return parts_->link.has_parts; }
 
 const std::string& SumTeam::partition() const { return parts_->partition; }

@@ -23,8 +23,8 @@ class SharedNodes : public NodeVectors {
   virtual ConstVectors gather_whole(const ConstVectors& vectors) = 0;
 
   /// Overwrites velocity with the flow at positions, both made here.
-  /// @param force  [n_nodes, 3], overwritten with the forces on all nodes
-  /// @returns them with all nodes' positions; all ranks have both then
+  /// @param force  [n_nodes, 3], overwritten with the forces on own nodes: of all only after SumTeam::complete_forces
+  /// @returns them with all nodes' positions, which all ranks have then
   virtual Sources compute_forces(const Physics& physics, double time, const ConstVectors& position,
                                  const Vectors& velocity, const Vectors& force) = 0;
 
