@@ -1,5 +1,5 @@
 // Sums that ranks share, by the wall time of rank 0, and what it takes of each rank. By itself, or under mpirun.
-// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run] [repeats=N] [tiny]
+// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run [sections=N]] [repeats=N] [tiny]
 //        [mpirun -n N] bench_ranks parts [only=N_NODES] [repeats=N] [tiny]
 // `run` takes steps of RKC2 with the fiber of 23 634 nodes, for a table of its own: seconds an evaluation by part, of
 // which the flow is that of one rank's nodes, and `alone` what rank 0 does for all nodes at the end of a step. Lines of
@@ -111,7 +111,8 @@ void run(const Request& asked, SumTeam* team) {
     const Problem problem("fiber", perf::make_straight(n_fiber), perf::fiber_blob);
     measure_fmm(problem, team, asked.repeats(60));
   }
-  if (tiny || asked.has("run")) perf::measure_steps(tiny ? 120 : 1313, team, asked.repeats(60));
+  if (tiny || asked.has("run"))
+    perf::measure_steps(asked.number("sections", tiny ? 120 : 1313), team, asked.repeats(60));
   if (tiny || asked.has("cube")) {
     const Problem problem("cube", perf::make_uniform(n_cube), 0.1 / std::cbrt(n_cube));
     measure_fmm(problem, team, asked.repeats(std::clamp(4000000 / n_cube, 3, 40)));
@@ -124,7 +125,7 @@ int run_on_ranks(const Request& asked) {
   if (asked.has("parts")) {
     if (ranks == nullptr || ranks->rank() == 0)
       std::printf(
-          "sum,ranks,threads,nodes,fastest_s,median_s,tree_s,sort_s,far_s,leaf_s,peak_bytes_per_node,"
+          "parts,ranks,threads,nodes,fastest_s,median_s,tree_s,sort_s,far_s,leaf_s,peak_bytes_per_node,"
           "method_bytes_per_node,boxes,velocities\n");
     perf::measure_parts(asked.n_cube(), ranks, asked.repeats(3));
     return 0;

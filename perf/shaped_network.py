@@ -122,14 +122,14 @@ def main():
                     measured.append(((latency, bandwidth), link, run_bench(bench, n_nodes, network, folder)))
     model = Model([alone] + [row for _, _, row in measured])
     print(f"{n_nodes} nodes in a cube, one rank alone: {alone['fastest_s']:.3g} s, of which the model knows "
-          f"{sum(model.seconds(n_nodes, 1, cores=1, kept=1.0, in_run=False)[part] for part in ('shared', 'replicated')):.3g} s")
+          f"{sum(model.seconds(n_nodes, 1, cores=1, kept=1.0, in_run=False)[part] for part in ('shared', 'tree')):.3g} s")
     print("| link | as measured | ranks | sum | by the model | of this the network | model / measured |")
     print("|---|---|---|---|---|---|---|")
     for asked, (latency, bandwidth), row in measured:
         n = int(row["ranks"])
         parts = model.seconds(n_nodes, n, cores=1, latency=latency, bandwidth=bandwidth, kept=1.0, in_run=False)
         crowd = max(1.0, n / os.cpu_count())
-        total = parts["network"] + crowd * sum(parts[name] for name in ("shared", "replicated", "top"))
+        total = parts["network"] + crowd * sum(parts[name] for name in ("shared", "tree", "top"))
         print(f"| {asked[0]}, {asked[1]} | {1e3 * latency:.3g} ms, {8e-6 * bandwidth:.4g} Mbit/s | {n} | {row['fastest_s']:.3g} s | "
               f"{total:.3g} s | {parts['network']:.3g} s | {total / row['fastest_s']:.2f} |")
 
