@@ -5,11 +5,12 @@
 #include "fmm/coefficient_passes.hpp"
 #include "fmm/fmm_choices.hpp"
 #include "fmm/operator_store.hpp"
-#include "fmm/rank_exchange.hpp"
+#include "fmm/rank_shares.hpp"
 #include "fmm/tail_operators.hpp"
 #include "fmm/tree_fit.hpp"
 #include "fmm/tree_tasks.hpp"
 
+#include <type_traits>
 #include <utility>
 
 namespace skein {
@@ -79,7 +80,7 @@ class FmmEvaluator final : public FmmSum {
   bool is_symmetric_ = false;  ///< sources are targets, with one blob, and each pair is met once
   bool is_divided_ = false;    ///< the tree is
   PassedBoxes boxes_;
-  RankExchange exchange_;  ///< with other ranks, where there are any
+  typename Workers::Exchange exchange_;  ///< with other ranks, where there are any
   InPrecision<double> in_double_;
   InPrecision<float> in_single_;
 };
@@ -119,12 +120,10 @@ bool FmmEvaluator<Workers>::compute(const FmmOptions& options, const FmmPlan& ch
     add_in<float>(options, plan, in_single_);
   else
     add_in<double>(options, plan, in_double_);
-  if constexpr (on_host<Space>) {
-    if (ranks_ != nullptr && owners.count.empty())
-      exchange_.gather_velocities(tree_, own_velocity_);
-    else if (ranks_ != nullptr)
-      exchange_.deliver_velocities(tree_, owners, own_velocity_);
-  }
+  if (ranks_ != nullptr && owners.count.empty())
+    exchange_.gather_velocities(tree_, own_velocity_);
+  else if (ranks_ != nullptr)
+    exchange_.deliver_velocities(tree_, owners, own_velocity_);
   return true;
 }
 
@@ -132,7 +131,7 @@ template <class Workers>
 void FmmEvaluator<Workers>::require_tree(const OctreeRules& rules, const bool may_keep) {
   if (may_keep && keeping_.may_serve(rules) && tree_.still_fits(space_, nodes_.position, nodes_.target)) return;
   tree_.build(space_, nodes_.position, nodes_.target, rules);
-  if (ranks_ != nullptr) tree_.drop_keys();
+  if (ranks_ != nullptr && Workers::Exchange::spares_memory) tree_.drop_keys();
   keeping_.note_new_tree(rules);
   ++statistics.n_trees;
   workers_.take(space_, tree_);
@@ -146,12 +145,11 @@ void FmmEvaluator<Workers>::divide_tree(const FmmPlan& plan) {
   is_divided_ = true;
   boxes_ = {};
   IndexRange own_targets{0, tree_.n_targets};
-  if constexpr (on_host<Space>) {
-    if (ranks_ != nullptr) {
-      exchange_.share(*ranks_, tree_, plan, is_symmetric_);
-      boxes_ = exchange_.boxes();
-      own_targets = exchange_.shares().own_targets();
-    }
+  if (ranks_ != nullptr) {
+    exchange_.share(*ranks_, tree_, plan, is_symmetric_);
+    boxes_ = exchange_.boxes();
+    own_targets = exchange_.shares().own_targets();
+    workers_.take_share(space_, tree_, own_targets);
   }
   if (ranks_ == nullptr)
     for (int level = 0; level < tree_.n_levels(); ++level) boxes_.sources.push_back(tree_.level(level));
@@ -162,7 +160,7 @@ void FmmEvaluator<Workers>::divide_tree(const FmmPlan& plan) {
     else
       workers_.meet_twice();
   }
-  if (ranks_ != nullptr) tree_.drop_touching();
+  if (ranks_ != nullptr && Workers::Exchange::spares_memory) tree_.drop_touching();
   parts_.build(space_, tree_, Workers::part_targets, own_targets);
 }
 
@@ -214,7 +212,7 @@ void FmmEvaluator<Workers>::pass(const FmmPlan& plan, const Field& field, const 
   require_extent(coefficients.source, needed, "skein::fmm_evaluator::source_coefficients");
   require_extent(coefficients.target, needed, "skein::fmm_evaluator::target_coefficients");
   const Passes<Space, Real, Field> passes(tree_, sorted_, field, levels, coefficients);
-  if constexpr (on_host<Space>) {
+  if constexpr (Workers::Exchange::spares_memory) {
     if (ranks_ != nullptr) boxes_.exchange = [&] { exchange_.exchange_coefficients(coefficients); };
   }
   compute_coefficients(workers_, passes, boxes_);
@@ -254,6 +252,12 @@ void FmmEvaluator<Workers>::add_to(const Vectors& velocity) const {
     const auto rank = static_cast<std::size_t>(ranks_->rank());
     here = Kokkos::subview(own_velocity_, std::make_pair(owners.first[rank], owners.first[rank] + owners.count[rank]),
                            Kokkos::ALL());
+    if constexpr (!std::is_same_v<typename Space::memory_space, ExecSpace::memory_space>) {
+      // What goes to another memory has no gaps.
+      const VectorView<Space> packed("skein::fmm_evaluator::own_rows", here.extent(0));
+      Kokkos::deep_copy(packed, here);
+      here = packed;
+    }
   }
   const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), here);
   combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, own});

@@ -2,6 +2,7 @@
 
 #include <skein/ranks/communicator.hpp>
 
+#include "fmm/deliveries.hpp"
 #include "fmm/passes.hpp"
 #include "fmm/rank_shares.hpp"
 
@@ -10,6 +11,9 @@ namespace skein {
 /// What ranks that share a sum tell each other.
 class RankExchange {
  public:
+  /// A rank has what it looks at alone: coefficients of other ranks' boxes are sent to it.
+  static constexpr bool spares_memory = true;
+
   /// Divides a new tree, and gives back what this rank has no use for.
   void share(Communicator& ranks, HostOctree& tree, const FmmPlan& plan, bool is_symmetric);
   const RankShares& shares() const { return shares_; }
@@ -24,14 +28,10 @@ class RankExchange {
 
  private:
   Communicator* ranks_ = nullptr;
-  void list_deliveries(const HostOctree& tree, const RankParts& owners);
-
   RankShares shares_;
   std::vector<double> send_, receive_;
-  /// Own targets in the order of those that own them, and owned ones in the order of those that sum them; of the tree.
-  std::vector<int> sent_targets_, received_targets_;
-  std::vector<std::size_t> n_sent_, n_received_;  ///< [n_ranks], numbers; empty: to be listed
-  std::vector<std::size_t> listed_for_;           ///< counts of the owners
+  Deliveries deliveries_;                ///< of the tree
+  std::vector<std::size_t> listed_for_;  ///< counts of the owners; empty: to be listed
 };
 
 }  // namespace skein

@@ -26,8 +26,9 @@ struct SumTeam::Parts {
 /// Rank 0's side of a sum that all ranks compute.
 class SumTeam::SharedFmmSum final : public FmmSum {
  public:
-  explicit SharedFmmSum(Parts& team)
-      : team_(team), link_(team.link), inner_(skein::make_fmm_sum(KernelPath::host, &team.link.ranks)) {
+  SharedFmmSum(Parts& team, const KernelPath path)
+      : team_(team), link_(team.link), inner_(skein::make_fmm_sum(path, &team.link.ranks)) {
+    order_.path = path;
     while (!team.fmm_sums.insert(order_.fmm_sum).second) ++order_.fmm_sum;
   }
   ~SharedFmmSum() override { team_.fmm_sums.erase(order_.fmm_sum); }
@@ -35,6 +36,7 @@ class SumTeam::SharedFmmSum final : public FmmSum {
   bool take(const Sources& sources, const ConstVectors& target) override {
     order_.kind = SumOrder::Kind::take_nodes;
     send_nodes(link_, order_, sources, target);
+    order_.is_new_sum = false;
     return inner_->take(sources, target);
   }
   double largest_blob() const override { return inner_->largest_blob(); }
@@ -130,15 +132,12 @@ void SumTeam::add_direct(const Sources& sources, const ConstVectors& target, con
 }
 
 std::unique_ptr<FmmSum> SumTeam::make_fmm_sum(const KernelPath path) {
-  const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
-  // Of a device's sum rank 0 has all.
-  if (!is_on_host) return skein::make_fmm_sum(path);
-  return std::make_unique<SharedFmmSum>(*parts_);
+  return std::make_unique<SharedFmmSum>(*parts_, path);
 }
 
 std::shared_ptr<SharedForces> SumTeam::share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
                                                     const std::vector<std::unique_ptr<Force>>& forces) {
-  if (!on_host<ExecSpace> || parts_->link.ranks.size() == 1) return nullptr;
+  if (parts_->link.ranks.size() == 1) return nullptr;
   return std::make_shared<SharedForces>(parts_->link, parts_->scenes, scene, fibers, forces);
 }
 
