@@ -80,16 +80,16 @@ void check_extents(const SpringArrays<Space>& springs, const ConstVectorView<Spa
 }
 
 template <class Space>
-void sum_by_teams(const Space& space, const SpringArrays<Space>& springs, const ConstVectorView<Space>& position,
-                  const VectorView<Space>& force, const bool adds) {
+void sum_by_teams(const Space& space, const SpringArrays<Space>& springs, const IndexRange nodes,
+                  const ConstVectorView<Space>& position, const VectorView<Space>& force, const bool adds) {
   using Sum = ForcesByTeams<Space>;
   check_extents<Space>(springs, position, force);
-  typename Sum::Policy policy(space, math::ceil_div(position.extent_int(0), Sum::team_nodes),
-                              on_host<Space> ? 1 : Sum::n_workers);
+  if (nodes.count == 0) return;
+  typename Sum::Policy policy(space, math::ceil_div(nodes.count, Sum::team_nodes), on_host<Space> ? 1 : Sum::n_workers);
   policy.set_scratch_size(0, Kokkos::PerTeam(static_cast<int>(Sum::Partial::shmem_size(Sum::n_workers))));
   Kokkos::parallel_for("skein::add_spring_force_by_nodes",
                        Kokkos::Experimental::require(policy, Kokkos::Experimental::WorkItemProperty::HintLightWeight),
-                       Sum{springs, position, force, adds});
+                       Sum{springs, position, force, nodes, adds});
 }
 
 /// A node to a thread of a host.
@@ -105,15 +105,15 @@ void add_by_nodes_of_host(const HostSpace& space, const SpringArrays<HostSpace>&
 }  // namespace
 
 template <class Space>
-void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs, const IndexRange nodes,
                                const ConstVectorView<Space>& position, const VectorView<Space>& force) {
-  sum_by_teams<Space>(space, springs, position, force, true);
+  sum_by_teams<Space>(space, springs, nodes, position, force, true);
 }
 
 template <class Space>
 void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                    const ConstVectorView<Space>& position, const VectorView<Space>& force) {
-  sum_by_teams<Space>(space, springs, position, force, false);
+  sum_by_teams<Space>(space, springs, {0, position.extent_int(0)}, position, force, false);
 }
 
 template <class Space>
@@ -121,7 +121,7 @@ void add_spring_force(const Space& space, const SpringArrays<Space>& springs, co
                       const ConstVectorView<Space>& position, const VectorView<Space>& force) {
   if (nodes.count == 0) return;
   if constexpr (!on_host<Space>) {
-    add_spring_force_by_nodes<Space>(space, springs, position, force);
+    add_spring_force_by_nodes<Space>(space, springs, nodes, position, force);
   } else if (springs.has_wide_sections) {
     add_by_nodes_of_host(space, springs, nodes, position, force);
   } else {
@@ -146,14 +146,14 @@ void compute_section_energy(const Space& space, const SpringArrays<Space>& sprin
       });
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                  \
-  template void add_spring_force<S>(const S&, const SpringArrays<S>&, IndexRange, const ConstVectorView<S>&,  \
-                                    const VectorView<S>&);                                                    \
-  template void add_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,     \
-                                             const VectorView<S>&);                                           \
-  template void compute_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&, \
-                                                 const VectorView<S>&);                                       \
-  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,        \
+#define SKEIN_INSTANTIATE(S)                                                                                          \
+  template void add_spring_force<S>(const S&, const SpringArrays<S>&, IndexRange, const ConstVectorView<S>&,          \
+                                    const VectorView<S>&);                                                            \
+  template void add_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, IndexRange, const ConstVectorView<S>&, \
+                                             const VectorView<S>&);                                                   \
+  template void compute_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,         \
+                                                 const VectorView<S>&);                                               \
+  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,                \
                                           const ScalarView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

@@ -55,13 +55,13 @@ template <class Space>
 void add_spring_force(const Space& space, const SpringArrays<Space>& springs, IndexRange nodes,
                       const ConstVectorView<Space>& position, const VectorView<Space>& force);
 
-/// The same for all nodes by one thread per node, each spring weighed at both of its nodes: the way of GPUs, and of the
+/// The same by a few threads per node, each spring weighed at both of its nodes: the way of GPUs, and of the
 /// host where sections have more nodes than a tile holds.
 template <class Space>
-void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
+void add_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs, IndexRange nodes,
                                const ConstVectorView<Space>& position, const VectorView<Space>& force);
 
-/// The same in place of what was in `force`.
+/// The same for all nodes, in place of what was in `force`.
 template <class Space>
 void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                    const ConstVectorView<Space>& position, const VectorView<Space>& force);

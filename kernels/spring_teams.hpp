@@ -22,8 +22,8 @@ KOKKOS_INLINE_FUNCTION Vec3 force_on_node(const SpringArrays<Space>& springs, co
   return force;
 }
 
-/// Forces on the nodes of a team, a few workers to each node: small fibers alone would not keep a device busy. Partial
-/// forces are added in the order of the workers, whatever the size of the team.
+/// Forces on some of the nodes, a few to a team and a few workers to each node: small fibers alone would not keep a
+/// device busy. Partial forces are added in the order of the workers, whatever the size of the team.
 template <class Space>
 struct ForcesByTeams {
   static constexpr int n_shares = 8, team_nodes = 16, n_workers = n_shares * team_nodes;
@@ -34,12 +34,13 @@ struct ForcesByTeams {
   SpringArrays<Space> springs;
   ConstVectorView<Space> position;
   VectorView<Space> force;
+  IndexRange nodes;
   bool adds;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team& team) const {
     const Partial partial(team.team_scratch(0), n_workers);
-    const int first = team.league_rank() * team_nodes;
-    const int count = math::smaller(team_nodes, position.extent_int(0) - first);
+    const int before = team.league_rank() * team_nodes, first = nodes.first + before;
+    const int count = math::smaller(team_nodes, nodes.count - before);
     for (int worker = team.team_rank(); worker < n_shares * count; worker += team.team_size())
       partial(worker) = force_on_node<Space>(springs, position, first + worker / n_shares, worker % n_shares, n_shares);
     team.team_barrier();  // partial forces are complete

@@ -7,15 +7,6 @@
 namespace skein {
 namespace {
 
-/// Nodes whose sum one thread makes: what fixes the order. A device has threads in plenty, and the host adds up what
-/// they leave.
-template <class Space>
-int choose_chunk(const int n_nodes) {
-  constexpr int most_nodes = host_chunk_nodes, fewest_nodes = 16, most_chunks = 4096;
-  if (on_host<Space>) return host_chunk_nodes;
-  return math::smaller(most_nodes, math::larger(fewest_nodes, math::ceil_div(n_nodes, most_chunks)));
-}
-
 template <class Space, int n_terms>
 struct Combination {
   double factor[n_terms];
@@ -67,10 +58,19 @@ void combine(const Space& space, const VectorView<Space>& result, const Term<Spa
   run<Space>(space, result, a, b, c, d, e);
 }
 
+// A device has threads in plenty, and the host adds up what they leave.
 template <class Space>
-std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
+int choose_dot_chunk(const int n_nodes) {
+  constexpr int most_nodes = 256, fewest_nodes = 16, most_chunks = 4096;
+  if (on_host<Space>) return most_nodes;
+  return math::smaller(most_nodes, math::larger(fewest_nodes, math::ceil_div(n_nodes, most_chunks)));
+}
+
+template <class Space>
+std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b,
+                               const int chunk_nodes) {
   SKEIN_REQUIRE(a.extent(0) == b.extent(0), "arrays of a dot product differ in length");
-  const int n_nodes = a.extent_int(0), chunk_nodes = choose_chunk<Space>(a.extent_int(0));
+  const int n_nodes = a.extent_int(0);
   const int n_chunks = math::ceil_div(n_nodes, chunk_nodes);
   const ScalarView<Space> chunk_sum = require_chunk_sums<Space>(n_chunks);
   launch<Space>(
@@ -89,17 +89,19 @@ std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>&
 template <class Space>
 double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b) {
   double total = 0.0;
-  for (const double of_chunk : dot_chunks<Space>(space, a, b)) total += of_chunk;
+  for (const double of_chunk : dot_chunks<Space>(space, a, b, choose_dot_chunk<Space>(a.extent_int(0))))
+    total += of_chunk;
   return total;
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                  \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                   \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,    \
-                           const Term<S>&);                                                                   \
-  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,    \
-                           const Term<S>&, const Term<S>&);                                                   \
-  template std::vector<double> dot_chunks<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&); \
+#define SKEIN_INSTANTIATE(S)                                                                                       \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&);                        \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,         \
+                           const Term<S>&);                                                                        \
+  template void combine<S>(const S&, const VectorView<S>&, const Term<S>&, const Term<S>&, const Term<S>&,         \
+                           const Term<S>&, const Term<S>&);                                                        \
+  template int choose_dot_chunk<S>(int);                                                                           \
+  template std::vector<double> dot_chunks<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&, int); \
   template double dot_product<S>(const S&, const ConstVectorView<S>&, const ConstVectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

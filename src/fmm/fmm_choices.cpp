@@ -11,8 +11,7 @@ namespace skein {
 
 std::unique_ptr<FmmSum> make_fmm_sum(const KernelPath path, Communicator* ranks) {
   const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
-  if (is_on_host) return make_host_fmm_sum(ranks);
-  return make_device_fmm_sum();
+  return is_on_host ? make_host_fmm_sum(ranks) : make_device_fmm_sum(ranks);
 }
 
 bool FmmSum::take_part(const Sources&, const RankParts&) {

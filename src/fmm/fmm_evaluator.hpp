@@ -3,15 +3,14 @@
 #include <skein/arrays/combination.hpp>
 
 #include "fmm/coefficient_passes.hpp"
-#include "fmm/essential_tree.hpp"
 #include "fmm/fmm_choices.hpp"
 #include "fmm/operator_store.hpp"
-#include "fmm/rank_exchange.hpp"
+#include "fmm/rank_shares.hpp"
 #include "fmm/tail_operators.hpp"
 #include "fmm/tree_fit.hpp"
 #include "fmm/tree_tasks.hpp"
 
-#include <algorithm>
+#include <type_traits>
 #include <utility>
 
 namespace skein {
@@ -50,10 +49,9 @@ class FmmEvaluator final : public FmmSum {
   };
 
   void require_tree(const OctreeRules& rules, bool may_keep, double scale);
-  void require_part_of_tree(const OctreeRules& rules, bool may_keep, double scale);
+  /// The same of a tree in parts, with its nodes.
+  void require_part(const OctreeRules& rules, bool may_keep, double scale);
   void note_new_tree(const OctreeRules& rules);
-  /// Who shares a sum has done its part.
-  void bring_velocities_home();
   /// Of a new tree: who does what, where others take part or each pair is met once.
   void divide_tree(const FmmPlan& plan);
   void sort_nodes(double scale);
@@ -84,20 +82,18 @@ class FmmEvaluator final : public FmmSum {
   bool is_symmetric_ = false;  ///< sources are targets, with one blob, and each pair is met once
   bool is_divided_ = false;    ///< the tree is
   PassedBoxes boxes_;
-  RankExchange exchange_;  ///< with other ranks, where there are any
-  RankParts given_parts_;  ///< of nodes, which ranks have one each; empty: this process has all
-  bool tree_is_part_ = false;
-  EssentialTree essential_;  ///< what makes such a tree
-  HostVectors part_velocity_;
+  typename Workers::Exchange exchange_;  ///< with other ranks, where there are any
+  RankParts given_;                      ///< of nodes, to each rank some; empty: this process has been given all
+  bool is_part_ = false;                 ///< the tree is one of several
   InPrecision<double> in_double_;
   InPrecision<float> in_single_;
 };
 
 template <class Workers>
 bool FmmEvaluator<Workers>::take(const Sources& sources, const ConstVectors& target) {
+  given_ = {};
   const typename Space::memory_space memory;
   const auto here = [&](const auto& array) { return Kokkos::create_mirror_view_and_copy(memory, array); };
-  given_parts_ = {};
   nodes_.position = here(sources.position);
   nodes_.force = here(sources.force);
   nodes_.blob = here(sources.blob);
@@ -108,116 +104,54 @@ bool FmmEvaluator<Workers>::take(const Sources& sources, const ConstVectors& tar
 }
 
 template <class Workers>
-bool FmmEvaluator<Workers>::take_part(const Sources& own, const RankParts& parts) {
-  SKEIN_REQUIRE(ranks_ != nullptr && on_host<Space>, "ranks share sums on hosts");
-  const bool is_finite = take(own, own.position);
-  given_parts_ = parts;
-  const std::vector<double> all = list_from_all(
-      *ranks_, {is_finite ? 1.0 : 0.0, nodes_.blob.extent(0) > 0 ? 1.0 : 0.0, blobs_.smallest, blobs_.largest});
-  bool are_finite = true, is_first = true;
-  for (std::size_t i = 0; i < all.size(); i += 4) {
-    are_finite = are_finite && all[i] != 0.0;
-    if (all[i + 1] == 0.0) continue;
-    blobs_.smallest = is_first ? all[i + 2] : std::min(blobs_.smallest, all[i + 2]);
-    blobs_.largest = is_first ? all[i + 3] : std::max(blobs_.largest, all[i + 3]);
-    is_first = false;
-  }
-  return are_finite;
-}
-
-template <class Workers>
-std::vector<Vec3> FmmEvaluator<Workers>::sample(const EvenSample& sample) const {
-  if (given_parts_.count.empty()) return read_sample<Space>(space_, own_velocity_, sample);
-  std::vector<Vec3> list(static_cast<std::size_t>(sample.n_chosen));
-  const bool has_all = owners.count.empty();  // on rank 0
-  const auto rank = static_cast<std::size_t>(ranks_->rank());
-  const auto first = has_all ? 0 : static_cast<int>(given_parts_.first[rank]);
-  for (int i = 0; i < sample.n_chosen; ++i) {
-    const int row = sample.index(i) - first;
-    if (row >= 0 && row < part_velocity_.extent_int(0)) list[static_cast<std::size_t>(i)] = load(part_velocity_, row);
-  }
-  return list;
-}
-
-template <class Workers>
 bool FmmEvaluator<Workers>::compute(const FmmOptions& options, const FmmPlan& chosen, const double viscosity) {
   LapTimer watch;
   FmmPlan plan = chosen;
   const bool is_symmetric =
       Workers::meets_pairs_once && are_same_nodes(nodes_.position, nodes_.target) && blobs_.smallest == blobs_.largest;
-  const bool is_part = !given_parts_.count.empty();
-  const bool may_keep = is_symmetric == is_symmetric_ && is_part == tree_is_part_;
+  const bool is_part = !given_.count.empty(), may_keep = is_symmetric == is_symmetric_ && is_part == is_part_;
   is_symmetric_ = is_symmetric;
-  tree_is_part_ = is_part;
+  is_part_ = is_part;
   require_tree(make_octree_rules(options, plan), may_keep, regularized_stokeslet::scale(viscosity));
   settle_plan(options, blobs_, {tree_.half_width(tree_.n_levels() - 1), tree_.largest_leaf}, plan);
   statistics.plan = plan;
   statistics.tree_seconds = lap(watch);
   if (options.direct_when_cheaper && estimate_relative_cost(statistics.work, plan, is_symmetric_, options) > 1.0)
     return false;
-  if (own_velocity_.extent_int(0) != tree_.n_targets)
-    own_velocity_ = VectorView<Space>("skein::fmm_evaluator::velocity", static_cast<std::size_t>(tree_.n_targets));
+  const auto n_targets = static_cast<std::size_t>(tree_.n_targets);
+  if (own_velocity_.extent(0) != n_targets)
+    own_velocity_ = VectorView<Space>("skein::fmm_evaluator::velocity", n_targets);
   divide_tree(plan);
-  if (!is_part) sort_nodes(regularized_stokeslet::scale(viscosity));
+  if (!is_part_) sort_nodes(regularized_stokeslet::scale(viscosity));
   statistics.sort_seconds = lap(watch);
   if (plan.far_in_single)
     add_in<float>(options, plan, in_single_);
   else
     add_in<double>(options, plan, in_double_);
-  if (ranks_ != nullptr) bring_velocities_home();
+  if constexpr (Workers::Exchange::makes_parts) {
+    if (is_part_) {
+      exchange_.return_velocities(given_, owners.count.empty(), own_velocity_);
+      return true;
+    }
+  }
+  if (ranks_ != nullptr && owners.count.empty())
+    exchange_.gather_velocities(tree_, own_velocity_);
+  else if (ranks_ != nullptr)
+    exchange_.deliver_velocities(tree_, owners, own_velocity_);
   return true;
 }
 
 template <class Workers>
-void FmmEvaluator<Workers>::bring_velocities_home() {
-  if constexpr (on_host<Space>) {
-    if (tree_is_part_) {
-      const auto rank = static_cast<std::size_t>(ranks_->rank());
-      const bool has_all = owners.count.empty() && rank == 0;
-      const std::size_t n_rows = has_all ? given_parts_.total() : given_parts_.count[rank];
-      if (part_velocity_.extent(0) != n_rows)
-        part_velocity_ = HostVectors("skein::fmm_evaluator::part_velocity", n_rows);
-      // The first rows of all are rank 0's.
-      essential_.return_velocities(*ranks_, own_velocity_, part_velocity_);
-      for (std::size_t c = 0; c < 3 && owners.count.empty(); ++c)
-        ranks_->gather(part_velocity_.data() + c * part_velocity_.stride(1), given_parts_,
-                       part_velocity_.data() + c * part_velocity_.stride(1));
-    } else if (owners.count.empty()) {
-      exchange_.gather_velocities(tree_, own_velocity_);
-    } else {
-      exchange_.deliver_velocities(tree_, owners, own_velocity_);
-    }
-  }
-}
-
-template <class Workers>
 void FmmEvaluator<Workers>::require_tree(const OctreeRules& rules, const bool may_keep, const double scale) {
-  if constexpr (on_host<Space>) {
-    if (tree_is_part_) return require_part_of_tree(rules, may_keep, scale);
-  }
+  if (is_part_) return require_part(rules, may_keep, scale);
   if (may_keep && keeping_.may_serve(rules) && tree_.still_fits(space_, nodes_.position, nodes_.target)) return;
   tree_.build(space_, nodes_.position, nodes_.target, rules);
   note_new_tree(rules);
 }
 
 template <class Workers>
-void FmmEvaluator<Workers>::require_part_of_tree(const OctreeRules& rules, const bool may_keep, const double scale) {
-  const auto move_nodes = [&] {
-    essential_.move_nodes(*ranks_, tree_, nodes_, blobs_.smallest == blobs_.largest ? blobs_.largest : 0.0, scale,
-                          sorted_);
-  };
-  if (may_keep && keeping_.may_serve(rules)) {
-    move_nodes();
-    if (essential_.still_fits(*ranks_, tree_, sorted_)) return;
-  }
-  essential_.build(*ranks_, nodes_.position, given_parts_, rules, tree_);
-  move_nodes();
-  note_new_tree(rules);
-}
-
-template <class Workers>
 void FmmEvaluator<Workers>::note_new_tree(const OctreeRules& rules) {
-  if (ranks_ != nullptr) tree_.drop_keys();
+  if (ranks_ != nullptr && Workers::Exchange::spares_memory) tree_.drop_keys();
   keeping_.note_new_tree(rules);
   ++statistics.n_trees;
   workers_.take(space_, tree_);
@@ -231,15 +165,14 @@ void FmmEvaluator<Workers>::divide_tree(const FmmPlan& plan) {
   is_divided_ = true;
   boxes_ = {};
   IndexRange own_targets{0, tree_.n_targets};
-  if constexpr (on_host<Space>) {
-    if (ranks_ != nullptr) {
-      if (tree_is_part_)
-        exchange_.share(*ranks_, essential_.make_shares(*ranks_, tree_, plan, is_symmetric_));
-      else
-        exchange_.share(*ranks_, tree_, plan, is_symmetric_);
-      boxes_ = exchange_.boxes();
-      own_targets = exchange_.shares().own_targets();
+  if (ranks_ != nullptr) {
+    if constexpr (Workers::Exchange::makes_parts) {
+      if (is_part_) exchange_.share_part(tree_, plan, is_symmetric_);
     }
+    if (!is_part_) exchange_.share(*ranks_, tree_, plan, is_symmetric_);
+    boxes_ = exchange_.boxes();
+    own_targets = exchange_.shares().own_targets();
+    workers_.take_share(space_, tree_, own_targets);
   }
   if (ranks_ == nullptr)
     for (int level = 0; level < tree_.n_levels(); ++level) boxes_.sources.push_back(tree_.level(level));
@@ -247,11 +180,11 @@ void FmmEvaluator<Workers>::divide_tree(const FmmPlan& plan) {
   if constexpr (Workers::meets_pairs_once) {
     if (is_symmetric_)
       workers_.meet_once(tree_, ranks_ == nullptr ? nullptr : &exchange_.shares(),
-                         tree_is_part_ ? &essential_.first_tile() : nullptr);
+                         is_part_ ? &exchange_.first_tile() : nullptr);
     else
       workers_.meet_twice();
   }
-  if (ranks_ != nullptr) tree_.drop_touching();
+  if (ranks_ != nullptr && Workers::Exchange::spares_memory) tree_.drop_touching();
   parts_.build(space_, tree_, Workers::part_targets, own_targets);
 }
 
@@ -281,11 +214,12 @@ void FmmEvaluator<Workers>::add_in(const FmmOptions& options, const FmmPlan& pla
   with_far_field(options, blobs_.largest, [&](const auto& field) { pass<Real>(plan, field, levels, in.coefficients); });
   if (plan.tail_degree > 0) add_tail(plan, in);
   double node_bytes = sorted_.bytes(), coefficient_bytes = in.coefficients.bytes() + in.tail_coefficients.bytes();
-  if (ranks_ != nullptr) {
-    // Of the rest of the arrays the system gives nothing.
+  if (ranks_ != nullptr && Workers::Exchange::spares_memory) {
     const RankShares& shares = exchange_.shares();
     node_bytes = 56.0 * shares.n_looked_at() + (tree_.same_nodes ? 0.0 : 24.0 * shares.own_targets().count);
-    if (tree_is_part_) node_bytes = 56.0 * tree_.n_sources + essential_.bytes();
+    if constexpr (Workers::Exchange::makes_parts) {
+      if (is_part_) node_bytes = 56.0 * tree_.n_sources + exchange_.part_bytes();
+    }
     coefficient_bytes = sizeof(Real) * shares.n_boxes * (in.coefficients.box_size + in.tail_coefficients.box_size);
   }
   statistics.memory_bytes = in.store.bytes() + in.operators.bytes() + in.tail_store.bytes() +
@@ -305,7 +239,7 @@ void FmmEvaluator<Workers>::pass(const FmmPlan& plan, const Field& field, const 
   require_extent(coefficients.source, needed, "skein::fmm_evaluator::source_coefficients");
   require_extent(coefficients.target, needed, "skein::fmm_evaluator::target_coefficients");
   const Passes<Space, Real, Field> passes(tree_, sorted_, field, levels, coefficients);
-  if constexpr (on_host<Space>) {
+  if constexpr (Workers::Exchange::spares_memory) {
     if (ranks_ != nullptr) boxes_.exchange = [&] { exchange_.exchange_coefficients(coefficients); };
   }
   compute_coefficients(workers_, passes, boxes_);
@@ -336,27 +270,32 @@ void FmmEvaluator<Workers>::count_work() {
   statistics.work.n_boxes = static_cast<double>(tree_.n_boxes());
   statistics.work.far_pairs = static_cast<double>(tree_.v_list.n_entries);
   statistics.work.near_pairs = tree_.n_near_pairs;
-  if (!tree_is_part_) return;
-  const EssentialTree::Totals& whole = essential_.totals();
-  statistics.n_boxes = whole.n_boxes;
-  statistics.n_leaves = whole.n_leaves;
-  statistics.work = {static_cast<double>(given_parts_.total()), static_cast<double>(given_parts_.total()),
-                     whole.near_pairs, whole.far_pairs, static_cast<double>(whole.n_boxes)};
+  if constexpr (Workers::Exchange::makes_parts) {
+    if (is_part_) exchange_.count_whole(given_, statistics);
+  }
 }
 
 template <class Workers>
 void FmmEvaluator<Workers>::add_to(const Vectors& velocity) const {
   VectorView<Space> here = own_velocity_;
-  if constexpr (on_host<Space>) {
-    if (tree_is_part_) here = part_velocity_;
+  if constexpr (Workers::Exchange::makes_parts) {
+    if (is_part_) here = exchange_.velocity();
   }
-  if (!tree_is_part_ && !owners.count.empty()) {
+  if (!is_part_ && !owners.count.empty()) {
     const auto rank = static_cast<std::size_t>(ranks_->rank());
     here = Kokkos::subview(own_velocity_, std::make_pair(owners.first[rank], owners.first[rank] + owners.count[rank]),
                            Kokkos::ALL());
+    if constexpr (!std::is_same_v<typename Space::memory_space, ExecSpace::memory_space>) {
+      // What goes to another memory has no gaps.
+      const VectorView<Space> packed("skein::fmm_evaluator::own_rows", here.extent(0));
+      Kokkos::deep_copy(packed, here);
+      here = packed;
+    }
   }
   const Vectors own = Kokkos::create_mirror_view_and_copy(ExecSpace::memory_space(), here);
   combine<ExecSpace>(ExecSpace(), velocity, {1.0, velocity}, {1.0, own});
 }
 
 }  // namespace skein
+
+#include "fmm/fmm_evaluator_parts.hpp"

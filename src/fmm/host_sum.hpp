@@ -4,6 +4,7 @@
 #include "fmm/host_leaves.hpp"
 #include "fmm/host_workers.hpp"
 #include "fmm/near_tiles.hpp"
+#include "fmm/rank_exchange.hpp"
 
 namespace skein {
 
@@ -15,13 +16,15 @@ void transfer_on_host(const Passes<HostSpace, Real, Field>& passes, const std::v
 class HostWorkers {
  public:
   using Space = HostSpace;
+  using Exchange = RankExchange;
   static constexpr int part_targets = host_part_targets;
   static constexpr bool meets_pairs_once = true;  ///< where sources are targets, with one blob
 
   void take(const Space&, const Octree<Space>&) { near_matches_ = {}; }
+  void take_share(const Space&, const Octree<Space>&, IndexRange) {}  ///< lists have been cut
   /// Who meets whom, where each pair is to be met once; else all of U is summed by targets.
   /// @param shares, first_tile  see make_near_matches
-  void meet_once(const Octree<Space>& tree, const RankShares* shares, const std::vector<int>* first_tile = nullptr) {
+  void meet_once(const Octree<Space>& tree, const RankShares* shares, const std::vector<int>* first_tile) {
     if (near_matches_.tiles.empty()) near_matches_ = make_near_matches(tree, shares, first_tile);
   }
   void meet_twice() { near_matches_ = {}; }

@@ -10,15 +10,8 @@ namespace {
 
 constexpr int several = -1, nobody = -2;
 
-/// Work that begins at a place in the tree's order, at which ranks may be divided if a leaf begins there.
-struct Piece {
-  int first = 0;
-  double work = 0.0;
-  bool is_leaf = false;
-};
-
-std::vector<Piece> list_target_work(const HostOctree& tree, const FmmPlan& plan, const bool is_symmetric) {
-  std::vector<Piece> pieces;
+std::vector<WorkPiece> list_target_work(const HostOctree& tree, const FmmPlan& plan, const bool is_symmetric) {
+  std::vector<WorkPiece> pieces;
   const auto note = [&](const Box& box, const int b, const double near_pairs) {
     FmmWork work;
     work.n_sources = box.is_leaf() ? box.sources.count : 0;
@@ -37,40 +30,18 @@ std::vector<Piece> list_target_work(const HostOctree& tree, const FmmPlan& plan,
     for (const IndexRange& run : tree.near_runs(leaf)) n_sources += run.count;
     note(tree.box(b), b, n_sources * tree.box(b).targets.count);
   }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
   return pieces;
 }
 
-/// Edges between ranks, and what each rank has to do.
-std::vector<int> cut(const std::vector<Piece>& pieces, const int n_places, const int n_ranks, double& balance) {
-  double total = 0.0;
-  for (const Piece& piece : pieces) total += piece.work;
-  std::vector<int> edges = {0};
-  std::vector<double> work(static_cast<std::size_t>(n_ranks));
-  double before = 0.0;
-  for (const Piece& piece : pieces) {
-    // A leaf goes to the next rank where its middle lies beyond the edge.
-    while (piece.is_leaf && static_cast<int>(edges.size()) < n_ranks && piece.first > edges.back() &&
-           before + 0.5 * piece.work > total * static_cast<double>(edges.size()) / n_ranks)
-      edges.push_back(piece.first);
-    work[edges.size() - 1] += piece.work;
-    before += piece.work;
-  }
-  edges.resize(static_cast<std::size_t>(n_ranks) + 1, n_places);
-  balance = total > 0.0 ? *std::max_element(work.begin(), work.end()) * n_ranks / total : 1.0;
-  return edges;
-}
-
 std::vector<int> cut_sources(const HostOctree& tree, const int n_ranks) {
-  std::vector<Piece> pieces;
+  std::vector<WorkPiece> pieces;
   for (int b = 0; b < tree.n_boxes(); ++b) {
     const Box& box = tree.box(b);
     if (box.is_leaf() && box.sources.count > 0)
       pieces.push_back({box.sources.first, static_cast<double>(box.sources.count), true});
   }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
   double ignored = 1.0;
-  return cut(pieces, tree.n_sources, n_ranks, ignored);
+  return cut_work(pieces, tree.n_sources, n_ranks, ignored);
 }
 
 int rank_of(const std::vector<int>& first, const int place) {
@@ -170,12 +141,33 @@ void RankShares::count_boxes() {
   for (const IndexRange& boxes : target_boxes) n_boxes += boxes.count;
 }
 
+std::vector<int> cut_work(std::vector<WorkPiece>& pieces, const int n_places, const int n_ranks, double& balance) {
+  std::sort(pieces.begin(), pieces.end(), [](const WorkPiece& a, const WorkPiece& b) { return a.first < b.first; });
+  double total = 0.0;
+  for (const WorkPiece& piece : pieces) total += piece.work;
+  std::vector<int> edges = {0};
+  std::vector<double> work(static_cast<std::size_t>(n_ranks));
+  double before = 0.0;
+  for (const WorkPiece& piece : pieces) {
+    // A leaf goes to the next rank where its middle lies beyond the edge.
+    while (piece.is_leaf && static_cast<int>(edges.size()) < n_ranks && piece.first > edges.back() &&
+           before + 0.5 * piece.work > total * static_cast<double>(edges.size()) / n_ranks)
+      edges.push_back(piece.first);
+    work[edges.size() - 1] += piece.work;
+    before += piece.work;
+  }
+  edges.resize(static_cast<std::size_t>(n_ranks) + 1, n_places);
+  balance = total > 0.0 ? *std::max_element(work.begin(), work.end()) * n_ranks / total : 1.0;
+  return edges;
+}
+
 RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, const bool is_symmetric, const int rank,
                       const int n_ranks) {
   RankShares shares;
   shares.rank = rank;
   shares.n_ranks = n_ranks;
-  shares.first_target = cut(list_target_work(tree, plan, is_symmetric), tree.n_targets, n_ranks, shares.balance);
+  std::vector<WorkPiece> pieces = list_target_work(tree, plan, is_symmetric);
+  shares.first_target = cut_work(pieces, tree.n_targets, n_ranks, shares.balance);
   shares.first_source = tree.same_nodes ? shares.first_target : cut_sources(tree, n_ranks);
   const std::vector<int> owners = find_owners(tree, shares.first_source);
   shares.source_boxes.resize(static_cast<std::size_t>(tree.n_levels()));

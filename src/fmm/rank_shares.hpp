@@ -46,6 +46,17 @@ struct RankShares {
   }
 };
 
+/// Work that begins at a place in the tree's order, at which ranks may be divided if a leaf begins there.
+struct WorkPiece {
+  int first = 0;
+  double work = 0.0;
+  bool is_leaf = false;
+};
+
+/// Edges between ranks with about as much work. @param pieces  in any order, put in that of their places
+/// @param balance  overwritten with the largest work of a rank over the mean
+std::vector<int> cut_work(std::vector<WorkPiece>& pieces, int n_places, int n_ranks, double& balance);
+
 /// @param is_symmetric  the near field meets each pair once
 RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, bool is_symmetric, int rank, int n_ranks);
 

@@ -44,6 +44,24 @@ void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNod
 }
 
 template <class Space>
+void pack_vectors(const Space& space, const ConstVectorView<Space>& vectors,
+                  const Kokkos::View<const int*, Space>& list, const ScalarView<Space>& packed) {
+  launch<Space>(
+      "skein::pack_vectors", space, Calls{list.extent_int(0), 10.0}, KOKKOS_LAMBDA(const int i) {
+        for (int c = 0; c < 3; ++c) packed(3 * i + c) = vectors(list(i), c);
+      });
+}
+
+template <class Space>
+void unpack_vectors(const Space& space, const ConstScalarView<Space>& packed,
+                    const Kokkos::View<const int*, Space>& list, const VectorView<Space>& vectors) {
+  launch<Space>(
+      "skein::unpack_vectors", space, Calls{list.extent_int(0), 10.0}, KOKKOS_LAMBDA(const int i) {
+        for (int c = 0; c < 3; ++c) vectors(list(i), c) = packed(3 * i + c);
+      });
+}
+
+template <class Space>
 std::vector<Vec3> read_sample(const Space& space, const ConstVectorView<Space>& vectors, const EvenSample& sample) {
   const VectorView<Space> chosen("skein::even_sample::sample", sample.n_chosen);
   Kokkos::parallel_for(
@@ -61,6 +79,10 @@ std::vector<Vec3> read_sample(const Space& space, const ConstVectorView<Space>& 
   template void require_nodes<S>(const Octree<S>&, SortedNodes<S>&);                                               \
   template void sort_nodes<S>(const S&, const Octree<S>&, const UnsortedNodes<S>&, double, IndexRange, IndexRange, \
                               const SortedNodes<S>&);                                                              \
+  template void pack_vectors<S>(const S&, const ConstVectorView<S>&, const Kokkos::View<const int*, S>&,           \
+                                const ScalarView<S>&);                                                             \
+  template void unpack_vectors<S>(const S&, const ConstScalarView<S>&, const Kokkos::View<const int*, S>&,         \
+                                  const VectorView<S>&);                                                           \
   template std::vector<Vec3> read_sample<S>(const S&, const ConstVectorView<S>&, const EvenSample&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

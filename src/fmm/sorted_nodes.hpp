@@ -30,4 +30,12 @@ template <class Space>
 void sort_nodes(const Space& space, const Octree<Space>& tree, const UnsortedNodes<Space>& nodes, double scale,
                 IndexRange sources, IndexRange targets, const SortedNodes<Space>& sorted);
 
+/// packed(3 i + c) = component c of vector list(i), and back.
+template <class Space>
+void pack_vectors(const Space& space, const ConstVectorView<Space>& vectors,
+                  const Kokkos::View<const int*, Space>& list, const ScalarView<Space>& packed);
+template <class Space>
+void unpack_vectors(const Space& space, const ConstScalarView<Space>& packed,
+                    const Kokkos::View<const int*, Space>& list, const VectorView<Space>& vectors);
+
 }  // namespace skein

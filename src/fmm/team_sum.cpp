@@ -8,24 +8,26 @@ namespace skein {
 
 template <class Space, class Real, class Field>
 void transfer_by_teams(const Space& space, const Passes<Space, Real, Field>& passes, const FarOrder<Space>& far,
-                       const Kokkos::View<Real*, Space>& products, const int team_size) {
+                       const std::vector<int>& runs, const Kokkos::View<Real*, Space>& products, const int team_size) {
   Kokkos::deep_copy(space, passes.coefficients.target, Real(0));
-  const int n_boxes = passes.n_boxes, n_pairs = passes.v_list.n_entries;
-  const int at_once = static_cast<int>(products.extent(0) / static_cast<std::size_t>(passes.coefficients.box_size));
-  for (int begin = 0; begin < n_pairs; begin += at_once) {
-    const int end = math::smaller(n_pairs, begin + at_once);
+  const int n_boxes = passes.n_boxes;
+  for (std::size_t run = 0; run + 1 < runs.size(); ++run) {
+    const int begin = runs[run], end = runs[run + 1];
+    if (begin == end) continue;
     const TransferProducts<Space, Real, Field> multiply(passes, far, begin, end, products.data());
     Kokkos::parallel_for(
         "skein::run_m2l",
         make_team_policy(space, multiply.n_teams(), team_size, multiply.scratch_level, multiply.scratch_bytes()),
         multiply);
     Kokkos::parallel_for("skein::add_transfers", make_team_policy(space, n_boxes, team_size, 0, 0),
-                         AddTransfers<Space, Real, Field>{passes, far.place, begin, end, products.data()});
+                         AddTransfers<Space, Real, Field>{passes, far.place, far.targets, begin, end, products.data()});
   }
 }
 
 template class FmmEvaluator<TeamWorkers>;
 
-std::unique_ptr<FmmSum> make_device_fmm_sum() { return std::make_unique<FmmEvaluator<TeamWorkers>>(); }
+std::unique_ptr<FmmSum> make_device_fmm_sum(Communicator* ranks) {
+  return std::make_unique<FmmEvaluator<TeamWorkers>>(TeamWorkers(), ranks);
+}
 
 }  // namespace skein

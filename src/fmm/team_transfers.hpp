@@ -138,13 +138,14 @@ struct AddTransfers {
 
   Passes<Space, Real, Field> passes;
   Kokkos::View<const int*, Space> far_place;
+  IndexRange targets;  ///< places in the tree's order: boxes without any of these are left out
   int begin, end;
   const Real* products;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team& team) const {
     const int b = team.league_rank();
     const int first = passes.v_list.first(b), last = passes.v_list.first(b + 1);
-    if (first == last) return;
+    if (first == last || !overlap(passes.boxes(b).targets, targets)) return;
     const auto& coefficients = passes.coefficients;
     const LevelOperators<Real>& operators = passes.levels.sets(passes.boxes(b).level);
     for (int row = team.team_rank(); row < operators.rank_padded; row += team.team_size()) {

@@ -4,6 +4,8 @@
 #include <skein/arrays/node_vectors.hpp>
 #include <skein/core/error.hpp>
 
+#include "seen_rows.hpp"
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -15,8 +17,8 @@ namespace {
 struct ChunkShare {
   std::size_t head = 0, n_chunks = 0, chunk_nodes = 0, tail = 0;
 
-  ChunkShare(const RankParts& owners, const std::size_t rank) {
-    constexpr std::size_t size = host_chunk_nodes;
+  /// @param size  nodes of a chunk
+  ChunkShare(const RankParts& owners, const std::size_t rank, const std::size_t size) {
     const std::size_t first = owners.first[rank], end = first + owners.count[rank];
     const std::size_t first_chunk = (first + size - 1) / size;
     const std::size_t end_chunk = end == owners.total() ? (end + size - 1) / size : end / size;
@@ -34,9 +36,10 @@ struct ChunkShare {
   std::size_t n_numbers() const { return n_chunks + 3 * n_single(); }
 };
 
-void append_rows(const Vectors& rows, const std::size_t first, const std::size_t n, std::vector<double>& numbers) {
+void append_rows(const SeenRows& rows, const std::size_t first, const std::size_t n, std::vector<double>& numbers) {
+  rows.look(first, n);
   for (std::size_t i = first; i < first + n; ++i)
-    for (int c = 0; c < 3; ++c) numbers.push_back(rows(i, c));
+    for (std::size_t c = 0; c < 3; ++c) numbers.push_back(rows(i, c));
 }
 
 }  // namespace
@@ -53,43 +56,52 @@ Vectors own_rows(const Vectors& part, const RankParts& owners, const int rank) {
   return rows_of(part, 0, owners.count[static_cast<std::size_t>(rank)]);
 }
 
-void gather_rows_to_all(Communicator& ranks, const RankParts& owners, const Vectors& whole) {
-  ExecSpace().fence();
-  std::vector<double*> columns;
-  for (std::size_t c = 0; c < 3; ++c) columns.push_back(whole.data() + c * whole.stride(1));
-  ranks.gather_to_all(columns, owners);
+void gather_rows_to_all(Communicator& ranks, const RankParts& owners, const Vectors& whole, const RowAccess access) {
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  const SeenRows seen(whole, access, 0);
+  seen.look(owners.first[rank], owners.count[rank]);
+  ranks.gather_to_all({seen.column(0), seen.column(1), seen.column(2)}, owners);
+  seen.take(0, owners.total());
 }
 
-void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole) {
+void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole,
+                         const RowAccess access) {
   const auto rank = static_cast<std::size_t>(ranks.rank());
   Kokkos::deep_copy(ExecSpace(), rows_of(whole, owners.first[rank], owners.count[rank]),
                     own_rows(part, owners, ranks.rank()));
-  gather_rows_to_all(ranks, owners, whole);
+  gather_rows_to_all(ranks, owners, whole, access);
 }
 
-void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole) {
-  ExecSpace().fence();
-  for (std::size_t c = 0; c < 3; ++c)
-    ranks.gather(part.data() + c * part.stride(1), owners,
-                 ranks.rank() == 0 ? whole.data() + c * whole.stride(1) : nullptr);
+void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole,
+                  const RowAccess access) {
+  const bool receives = ranks.rank() == 0;
+  const SeenRows sent(part, access, 0), received(receives ? whole : Vectors(), access, 1);
+  sent.look(0, owners.count[static_cast<std::size_t>(ranks.rank())]);
+  for (std::size_t c = 0; c < 3; ++c) ranks.gather(sent.column(c), owners, receives ? received.column(c) : nullptr);
+  if (receives) received.take(0, owners.total());
 }
 
-void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part) {
+void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part,
+                   const RowAccess access) {
   const bool sends = ranks.rank() == 0;
   const std::vector<std::size_t> none(owners.count.size());
-  RankParts received{none, none};
-  received.count[0] = owners.count[static_cast<std::size_t>(ranks.rank())];
-  ExecSpace().fence();
+  RankParts from_rank_0{none, none};
+  from_rank_0.count[0] = owners.count[static_cast<std::size_t>(ranks.rank())];
+  const SeenRows received(part, access, 0), sent(sends ? whole : Vectors(), access, 1);
+  if (sends) sent.look(0, owners.total());
   for (std::size_t c = 0; c < 3; ++c)
-    ranks.exchange(sends ? whole.data() + c * whole.stride(1) : nullptr, sends ? owners : RankParts{none, none},
-                   part.data() + c * part.stride(1), received);
+    ranks.exchange(sends ? sent.column(c) : nullptr, sends ? owners : RankParts{none, none}, received.column(c),
+                   from_rank_0);
+  received.take(0, from_rank_0.count[0]);
 }
 
-double add_up_squares(Communicator& ranks, const RankParts& owners, const Vectors& part) {
+double add_up_squares(Communicator& ranks, const RankParts& owners, const Vectors& part, const RowAccess access) {
+  const int at_once = choose_dot_chunk<ExecSpace>(static_cast<int>(owners.total()));
+  const auto chunk_nodes = static_cast<std::size_t>(at_once);
   std::vector<ChunkShare> shares;
   std::vector<std::size_t> counts;
   for (std::size_t rank = 0; rank < owners.count.size(); ++rank) {
-    shares.emplace_back(owners, rank);
+    shares.emplace_back(owners, rank, chunk_nodes);
     counts.push_back(shares.back().n_numbers());
   }
   const ExecSpace space;
@@ -97,11 +109,11 @@ double add_up_squares(Communicator& ranks, const RankParts& owners, const Vector
   std::vector<double> numbers;
   if (own.n_chunks > 0) {
     const Vectors rows = rows_of(part, own.head, own.chunk_nodes);
-    numbers = dot_chunks<ExecSpace>(space, rows, rows);
+    numbers = dot_chunks<ExecSpace>(space, rows, rows, at_once);
   }
-  space.fence();
-  append_rows(part, 0, own.head, numbers);
-  append_rows(part, own.head + own.chunk_nodes, own.tail, numbers);
+  const SeenRows seen(part, access, 0);
+  append_rows(seen, 0, own.head, numbers);
+  append_rows(seen, own.head + own.chunk_nodes, own.tail, numbers);
   const RankParts parts = RankParts::behind_each_other(std::move(counts));
   std::vector<double> all(ranks.rank() == 0 ? parts.total() : 0);
   ranks.gather(numbers.data(), parts, all.data());
@@ -111,20 +123,22 @@ double add_up_squares(Communicator& ranks, const RankParts& owners, const Vector
   std::size_t n_single = 0;
   for (const ChunkShare& share : shares) n_single += share.n_single();
   const Vectors single("skein::add_up_squares::single", n_single);
+  const auto on_host = Kokkos::create_mirror_view(single);
   std::size_t next = 0;
   for (std::size_t rank = 0; rank < shares.size(); ++rank) {
     const double* number = all.data() + parts.first[rank] + shares[rank].n_chunks;
     for (std::size_t i = 0; i < shares[rank].n_single(); ++i, ++next)
-      for (int c = 0; c < 3; ++c) single(next, c) = *number++;
+      for (int c = 0; c < 3; ++c) on_host(next, c) = *number++;
   }
+  Kokkos::deep_copy(single, on_host);
   std::vector<double> of_single;
-  if (n_single > 0) of_single = dot_chunks<ExecSpace>(space, single, single);
+  if (n_single > 0) of_single = dot_chunks<ExecSpace>(space, single, single, at_once);
   // Chunks in their order: a rank's own ones begin behind the one that its head ends.
   double total = 0.0;
   std::size_t n_seen = 0, n_added = 0;  // of single nodes, and of the chunks of such
   const auto add_single = [&](const std::size_t n_nodes, const bool ends) {
     n_seen += n_nodes;
-    for (; n_added < (ends ? (n_seen + host_chunk_nodes - 1) / host_chunk_nodes : n_seen / host_chunk_nodes); ++n_added)
+    for (; n_added < (ends ? (n_seen + chunk_nodes - 1) / chunk_nodes : n_seen / chunk_nodes); ++n_added)
       total += of_single[n_added];
   };
   for (std::size_t rank = 0; rank < shares.size(); ++rank) {

@@ -89,8 +89,7 @@ ForcePromises SpringForces::promises() const {
 }
 
 void SpringForces::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {
-  if (by_nodes_) return add_spring_force_by_nodes<ExecSpace>(ExecSpace(), *springs_, position, force);
-  add_spring_force<ExecSpace>(ExecSpace(), *springs_, {0, position.extent_int(0)}, position, force);
+  add_forces_on(0, position.extent_int(0), 0.0, position, force);
 }
 
 void SpringForces::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
@@ -104,9 +103,9 @@ void SpringForces::add_force_changes(double /*time*/, const ConstVectors& positi
                                      change);
 }
 
-void SpringForces::add_forces_on(const int first, const int n, const double time, const ConstVectors& position,
+void SpringForces::add_forces_on(const int first, const int n, double /*time*/, const ConstVectors& position,
                                  const Vectors& force) const {
-  if (by_nodes_) return add_forces(time, position, force);
+  if (by_nodes_) return add_spring_force_by_nodes<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, force);
   add_spring_force<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, force);
 }
 

@@ -62,9 +62,11 @@ struct SumOrder {
   Precision precision = Precision::in_double;  ///< add_direct
   bool by_teams = false;
 
-  bool is_divided = false;   ///< take_nodes: each rank takes some, of a tree of which it has a part
-  int fmm_sum = 0;           ///< take_nodes, compute_fmm: which of the run's
-  std::int64_t n_steps = 0;  ///< that have begun
+  bool is_divided = false;                  ///< take_nodes: each rank takes some, of a tree of which it has a part
+  int fmm_sum = 0;                          ///< take_nodes, compute_fmm: which of the run's
+  KernelPath path = KernelPath::automatic;  ///< that it is made for
+  bool is_new_sum = true;                   ///< take_nodes: what has had the number before is gone, its tree, too
+  std::int64_t n_steps = 0;                 ///< that have begun
   bool is_in_step = false;
   FmmOptions options;  ///< compute_fmm
   FmmPlan plan;

@@ -153,7 +153,7 @@ class SumServer {
                         are_changes ? ConstVectors(nodes_.displacement) : ConstVectors(), nodes_.force);
   }
   void take_nodes(ServedFmmSum& served) {
-    if (served.sum == nullptr) served.sum = make_fmm_sum(KernelPath::host, &ranks_);
+    if (order_.is_new_sum) served = {make_fmm_sum(order_.path, &ranks_)};
     if (served.n_steps != order_.n_steps) served.sum->begin_step();
     served.n_steps = order_.n_steps;
     if (!order_.is_in_step) served.sum->end_step();

@@ -35,8 +35,9 @@ struct SumTeam::Parts {
 /// Rank 0's side of a sum that all ranks compute.
 class SumTeam::SharedFmmSum final : public FmmSum {
  public:
-  explicit SharedFmmSum(Parts& team)
-      : team_(team), link_(team.link), inner_(skein::make_fmm_sum(KernelPath::host, &team.link.ranks)) {
+  SharedFmmSum(Parts& team, const KernelPath path)
+      : team_(team), link_(team.link), inner_(skein::make_fmm_sum(path, &team.link.ranks)) {
+    order_.path = path;
     while (!team.fmm_sums.insert(order_.fmm_sum).second) ++order_.fmm_sum;
   }
   ~SharedFmmSum() override { team_.fmm_sums.erase(order_.fmm_sum); }
@@ -45,10 +46,12 @@ class SumTeam::SharedFmmSum final : public FmmSum {
     order_.kind = SumOrder::Kind::take_nodes;
     const std::size_t n = sources.position.extent(0);
     const int n_ranks = link_.ranks.size();
-    order_.is_divided = are_same_nodes(sources.position, target) && divide_tree(n, n_ranks);
+    order_.is_divided = on_host<ExecSpace> && order_.path != KernelPath::device &&
+                        are_same_nodes(sources.position, target) && divide_tree(n, n_ranks);
     order_.is_delivered = link_.delivery != nullptr;
     if (order_.is_delivered) order_.scene = link_.delivery->scene;
     send_nodes(link_, order_, sources, target);
+    order_.is_new_sum = false;
     if (!order_.is_divided) return inner_->take(sources, target);
     const RankParts parts = order_.is_delivered ? link_.delivery->owners : RankParts::evenly(n, n_ranks);
     return inner_->take_part(rows_of(sources, 0, parts.count[0]), parts);
@@ -147,15 +150,12 @@ void SumTeam::add_direct(const Sources& sources, const ConstVectors& target, con
 }
 
 std::unique_ptr<FmmSum> SumTeam::make_fmm_sum(const KernelPath path) {
-  const bool is_on_host = path == KernelPath::automatic ? on_host<ExecSpace> : path == KernelPath::host;
-  // Of a device's sum rank 0 has all.
-  if (!is_on_host) return skein::make_fmm_sum(path);
-  return std::make_unique<SharedFmmSum>(*parts_);
+  return std::make_unique<SharedFmmSum>(*parts_, path);
 }
 
 std::shared_ptr<SharedForces> SumTeam::share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
                                                     const std::vector<std::unique_ptr<Force>>& forces) {
-  if (!on_host<ExecSpace> || parts_->link.ranks.size() == 1) return nullptr;
+  if (parts_->link.ranks.size() == 1) return nullptr;
   return std::make_shared<SharedForces>(parts_->link, parts_->scenes, scene, fibers, forces);
 }
 

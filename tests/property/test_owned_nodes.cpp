@@ -1,6 +1,8 @@
 // What ranks do with their parts of arrays has the bits of what rank 0 does with whole ones.
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
+#include <skein/physics/direct_mobility.hpp>
+#include <skein/physics/fmm_mobility.hpp>
 #include <skein/physics/shared_nodes.hpp>
 #include <skein/physics/sum_team.hpp>
 #include <skein/solvers/right_hand_side_decorator.hpp>
@@ -196,6 +198,73 @@ TEST(OwnedNodes, HaveTheVelocitiesOfOneProcessWhereTreesAreInParts) {
   const Nodes with_ranks = read(velocity);
   dynamics.compute_velocity(0.1, position, velocity);
   EXPECT_TRUE(is_same(with_ranks, read(velocity)));
+}
+
+/// As sums are made on devices, which have an order of their own. @param team  null: one process
+std::unique_ptr<Mobility> make_device_mobility(const SumMethod sums, const Precision precision, SumTeam* team) {
+  if (sums == SumMethod::direct) return std::make_unique<DirectMobility>(1.0, precision, KernelPath::device, team);
+  FmmOptions options;
+  options.path = KernelPath::device;
+  options.precision = precision;
+  options.tolerance = 1e-3;
+  options.leaf_size = 20;
+  options.check_every = 7;
+  return std::make_unique<FmmMobility>(1.0, options, team);
+}
+
+TEST(OwnedNodes, HaveTheVelocitiesOfOneProcessFromSumsOnDevices) {
+  for (const SumMethod sums : {SumMethod::direct, SumMethod::fmm})
+    for (const Precision precision : {Precision::in_double, Precision::in_single}) {
+      const SceneConfig scene = make_scene(120);
+      Case made(scene);
+      Physics physics_of_one = make_physics(scene);
+      FiberDynamics of_one(physics_of_one);
+      made.physics.mobility = make_device_mobility(sums, precision, test::find_team());
+      physics_of_one.mobility = make_device_mobility(sums, precision, nullptr);
+      ASSERT_EQ(&made.dynamics.vectors(), made.physics.shared_nodes.get());
+      const Nodes start = made.physics.make_start_nodes(1);
+      const Vectors position = to_device("position", start), velocity("velocity", start.size());
+      const Vectors part = made.part_of(start), velocity_part = made.parts().make("velocity", made.n_nodes);
+      made.dynamics.begin_step();
+      of_one.begin_step();
+      for (int i = 0; i < 9; ++i) {
+        of_one.compute_velocity(0.1, position, velocity);
+        const Nodes expected = read(velocity);
+        made.dynamics.compute_velocity(0.1, position, velocity);
+        ASSERT_TRUE(is_same(read(velocity), expected)) << i << ", on rank 0";
+        made.dynamics.compute_velocity(0.1, part, velocity_part);
+        ASSERT_TRUE(is_same(made.whole_of(velocity_part), expected)) << i;
+        whole_vectors().combine(position, {{1.0, position}, {1e-4, velocity}});
+        made.parts().combine(part, {{1.0, part}, {1e-4, velocity_part}});
+      }
+      made.dynamics.end_step();
+      of_one.end_step();
+      EXPECT_EQ(made.physics.mobility->error_record().n_checks > 0, sums == SumMethod::fmm);
+      EXPECT_EQ(made.physics.mobility->error_record().n_approximate > 0, sums == SumMethod::fmm);
+    }
+}
+
+/// Each has a first step, in which it may keep its tree, and the second has the nodes a little farther on.
+TEST(OwnedNodes, HaveSumsThatKnowNothingOfThoseBefore) {
+  const SceneConfig scene = make_scene(120, SumMethod::fmm);
+  Physics physics_of_one = make_physics(scene);
+  const Nodes start = physics_of_one.make_start_nodes(1);
+  const Vectors position = to_device("position", start), velocity("velocity", start.size());
+  for (int k = 0; k < 4; ++k) {
+    Case made(scene);
+    Case one_process(scene);
+    one_process.physics.mobility = make_physics(scene).mobility;
+    for (Case* const with : {&one_process, &made}) {
+      with->dynamics.begin_step();
+      with->dynamics.compute_velocity(0.1, position, velocity);
+      with->dynamics.end_step();
+      if (with == &one_process) continue;
+      const Vectors expected("expected", start.size());
+      one_process.dynamics.compute_velocity(0.1, position, expected);
+      ASSERT_TRUE(is_same(read(velocity), read(expected))) << k;
+    }
+    whole_vectors().combine(position, {{1.0, position}, {3e-4, velocity}});
+  }
 }
 
 /// Integrators that work with whole arrays, as those of one process.

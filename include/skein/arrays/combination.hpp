@@ -28,12 +28,14 @@ void combine(const Space& space, const VectorView<Space>& result, const Term<Spa
 template <class Space>
 double dot_product(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b);
 
-/// Nodes that a host adds up by themselves in a dot product: what fixes its order.
-inline constexpr int host_chunk_nodes = 256;
+/// Nodes that are added up by themselves in a dot product of so many: what fixes its order.
+template <class Space>
+int choose_dot_chunk(int n_nodes);
 
 /// What a dot product adds up in the end: its parts from chunks of nodes, of which the last may have fewer.
 template <class Space>
-std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b);
+std::vector<double> dot_chunks(const Space& space, const ConstVectorView<Space>& a, const ConstVectorView<Space>& b,
+                               int chunk_nodes);
 
 /// Over nodes, of the vectors' lengths; the order of the sum is that of dot_product.
 template <class Space>

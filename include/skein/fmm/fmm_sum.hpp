@@ -58,8 +58,7 @@ class FmmSum {
 
 /// @param path  automatic: on the host where kernels run there, else on the device
 /// @param ranks  processes that share the sum, to the same bits: all of them take and compute it with the same
-/// arguments, and
-///               rank 0 has it. Null: this one alone, as on every device
+/// arguments, on hosts or each on a device of its own, and rank 0 has it. Null: this one alone
 std::unique_ptr<FmmSum> make_fmm_sum(KernelPath path, Communicator* ranks = nullptr);
 
 }  // namespace skein

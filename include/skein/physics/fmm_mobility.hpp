@@ -33,7 +33,7 @@ class FmmMobility final : public Mobility {
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   void begin_step() override { sum_->begin_step(); }
   void end_step() noexcept override { sum_->end_step(); }
-  bool sums_by_ranks() const override { return team_ != nullptr && options_.path != KernelPath::device; }
+  bool sums_by_ranks() const override { return team_ != nullptr; }
   double expected_error() const override { return options_.tolerance; }
   double pairs() const override { return pairs_; }
   std::string describe() const override;

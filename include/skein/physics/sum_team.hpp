@@ -38,8 +38,8 @@ class SumTeam {
   /// A fast multipole sum that ranks share, to be used as that of one process. The team must outlive it.
   std::unique_ptr<FmmSum> make_fmm_sum(KernelPath path);
 
-  /// The forces of a scene, to be computed by all ranks; null where there are no others, or where forces are computed
-  /// on devices. @param scene  as make_physics is given it  @param forces  made of it
+  /// The forces of a scene, to be computed by all ranks; null where there are no others. @param scene  as make_physics
+  /// is given it  @param forces  made of it
   std::shared_ptr<SharedForces> share_forces(const SceneConfig& scene, const std::vector<Fiber>& fibers,
                                              const std::vector<std::unique_ptr<Force>>& forces);
 
