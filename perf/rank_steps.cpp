@@ -72,7 +72,10 @@ void measure_steps(const int sections, SumTeam* team, const int repeats) {
   WholeDynamics whole(dynamics);
   const std::vector<Vec3> start = physics.make_start_nodes(1);
   const auto make_steps = [&](const char* name, RightHandSide& rhs) {
-    Steps steps{name, make_integrator(scene, physics, rhs), {0.0, 0, to_device("skein::bench_ranks::position", start)}};
+    Steps steps;
+    steps.name = name;
+    steps.integrator = make_integrator(scene, physics, rhs);
+    steps.state = {0.0, 0, to_device("skein::bench_ranks::position", start)};
     for (int step = 0; step < 10; ++step) steps.integrator->advance(steps.state, 1.0);  // until they are long
     return steps;
   };
