@@ -24,11 +24,6 @@ int find_box(const HostOctree& tree, const CellName& name) {
   return static_cast<int>(there - tree.boxes.data());
 }
 
-void note_box(const int b, IndexRange& boxes) {
-  if (boxes.count == 0) boxes.first = b;
-  boxes.count = b + 1 - boxes.first;
-}
-
 /// Boxes whose coefficients this rank's targets need of other ranks. Entry r is rank r's.
 std::vector<std::vector<int>> list_needed(const HostOctree& tree, const RankShares& shares,
                                           const std::vector<int>& owner) {
@@ -101,8 +96,8 @@ RankShares EssentialTree::make_shares(Communicator& ranks, const HostOctree& tre
   shares.target_boxes.resize(static_cast<std::size_t>(tree.n_levels()));
   for (int b = 0; b < tree.n_boxes(); ++b) {
     const auto level = static_cast<std::size_t>(tree.box(b).level);
-    if (owner_[static_cast<std::size_t>(b)] == rank_) note_box(b, shares.source_boxes[level]);
-    if (tree.box(b).targets.count > 0) note_box(b, shares.target_boxes[level]);
+    if (owner_[static_cast<std::size_t>(b)] == rank_) widen(shares.source_boxes[level], b);
+    if (tree.box(b).targets.count > 0) widen(shares.target_boxes[level], b);
   }
   for (int b = tree.n_boxes() - 1; b >= 0; --b)
     if (owner_[static_cast<std::size_t>(b)] == TopTree::several && tree.box(b).level >= first_far_level)

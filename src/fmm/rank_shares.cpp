@@ -60,12 +60,6 @@ std::vector<int> find_owners(const HostOctree& tree, const std::vector<int>& fir
   return owners;
 }
 
-/// Widens a range of boxes of a level.
-void note_box(const int b, IndexRange& boxes) {
-  if (boxes.count == 0) boxes.first = b;
-  boxes.count = b + 1 - boxes.first;
-}
-
 /// Who needs whose coefficients: entry [rank][box].
 class Needs {
  public:
@@ -134,6 +128,11 @@ std::vector<IndexRange> find_source_runs(const HostOctree& tree, const RankShare
 
 }  // namespace
 
+void widen(IndexRange& boxes, const int b) {
+  if (boxes.count == 0) boxes.first = b;
+  boxes.count = b + 1 - boxes.first;
+}
+
 void RankShares::count_boxes() {
   n_boxes = static_cast<double>(boxes_of_all.size());
   for (const IndexRange& boxes : source_boxes) n_boxes += boxes.count;
@@ -185,10 +184,10 @@ RankShares share_tree(const HostOctree& tree, const FmmPlan& plan, const bool is
   for (int b = 0; b < tree.n_boxes(); ++b) {
     const Box& box = tree.box(b);
     const auto level = static_cast<std::size_t>(box.level);
-    if (owners[static_cast<std::size_t>(b)] == rank) note_box(b, shares.source_boxes[level]);
+    if (owners[static_cast<std::size_t>(b)] == rank) widen(shares.source_boxes[level], b);
     if (box.targets.count > 0 && box.targets.first < own.first + own.count &&
         box.targets.first + box.targets.count > own.first)
-      note_box(b, shares.target_boxes[level]);
+      widen(shares.target_boxes[level], b);
     for (const FarPair& pair : tree.v_list.of(b)) needs.note(box, pair.source);
   }
   for (int leaf = 0; leaf < tree.n_target_leaves; ++leaf) {

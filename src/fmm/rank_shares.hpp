@@ -46,6 +46,9 @@ struct RankShares {
   }
 };
 
+/// Boxes of a level, and another one behind them with all between.
+void widen(IndexRange& boxes, int b);
+
 /// Work that begins at a place in the tree's order, at which ranks may be divided if a leaf begins there.
 struct WorkPiece {
   int first = 0;
