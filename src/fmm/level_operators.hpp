@@ -3,7 +3,7 @@
 #include "fmm/fmm_operator_set.hpp"
 
 #include <cstdint>
-#include <map>
+#include <unordered_map>
 #include <memory>
 #include <vector>
 
@@ -57,7 +57,7 @@ class OperatorCopies {
     std::shared_ptr<const void> host;  ///< the array that was copied: while it lives, its place in memory is its name
     Kokkos::View<const Real*, Space> device;
   };
-  using Copies = std::map<const Real*, Copy>;
+  using Copies = std::unordered_map<const Real*, Copy>;
 
   template <class Array>
   const Real* copy_array(const Array& array, Copies& used) const;

@@ -5,7 +5,7 @@
 #include "fmm/fmm_operator_set.hpp"
 #include "fmm_operators.hpp"
 
-#include <map>
+#include <unordered_map>
 #include <vector>
 
 namespace skein {
@@ -54,7 +54,7 @@ class OperatorStore {
  private:
   int order_ = 0;
   double cutoff_ = 0.0;
-  std::map<double, FmmOperators<Real>> kept_;  ///< by blob / half-width; one entry where that does not matter
+  std::unordered_map<double, FmmOperators<Real>> kept_;  ///< by blob / half-width; one entry where that does not matter
 };
 
 }  // namespace skein
