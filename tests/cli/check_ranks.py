@@ -2,7 +2,7 @@
 
 Usage: check_ranks.py SKEIN MPIRUN FOLDER [CASE...]
 
-A case is a scene of a hundred steps or so. Frames and the numbers of every step have to be equal on 1, 2, 3 and 4 ranks, and
+A case is a scene of a hundred steps or so, or of a few where it has many nodes. Frames and the numbers of every step have to be equal on 1, 2, 3 and 4 ranks, and
 equal to those of a run without mpirun where sums are made by the fast multipole method."""
 
 import os
@@ -82,10 +82,18 @@ CASES = {
     "two_fibers": (TWO_FIBERS, "direct", "rkc2"),
     "many_fibers": (MANY_FIBERS, "auto", "rkc2"),
     "fmm_many_fibers": (SPREAD_FIBERS, "fmm", "rkc2"),
+    # From 75 000 nodes on two ranks make a part of the tree each, on more of them from fewer on.
+    "trees_in_parts": (FIBER.format(sections=8700, nodes=9, blob=0.0045), "fmm", "rkc2"),
 }
 POSITION = "fibers/position/value"
-STEPS = 100
+STEPS = {"trees_in_parts": 5}
 STEP = 2e-3
+
+
+def steps_of(name):
+    return STEPS.get(name, 100)
+
+
 RANKS = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
@@ -118,8 +126,8 @@ def run(program, mpirun, n_ranks, scene, folder, *options):
 def check_case(program, mpirun, folder, name):
     text, sums, method = CASES[name]
     scene = folder / f"{name}.toml"
-    end = f"time.end={STEPS * STEP}"
-    scene.write_text(text + HYDRODYNAMICS.format(sums=sums) + TIME.format(method=method, step=STEP, interval=20 * STEP))
+    end, interval = f"time.end={steps_of(name) * STEP}", steps_of(name) // 5 * STEP
+    scene.write_text(text + HYDRODYNAMICS.format(sums=sums) + TIME.format(method=method, step=STEP, interval=interval))
     runs = {}
     for n_ranks in (0, 1, 2, 3, 4):
         runs[n_ranks] = folder / f"{name}_{n_ranks}"
@@ -127,18 +135,20 @@ def check_case(program, mpirun, folder, name):
         if n_ranks:
             check(f"ranks: {n_ranks}," in said, f"{name}: no ranks in the first lines: {said}")
             check("leaves along the tree" in said or sums != "fmm", f"{name}: no tree is shared: {said}")
+            are_parts = n_ranks > 1 and name == "trees_in_parts"
+            check(("of which each rank has a part" in said) == are_parts, f"{name}: whose is the tree? {said}")
             check("times the mean work" in said or n_ranks == 1, f"{name}: nothing of balance: {said}")
             is_owned = n_ranks > 1 and method != "trbdf2"
             check(("each advances the nodes of its sections" in said) == is_owned, f"{name}: whose are the nodes? {said}")
     reference = arrays(runs[1])
     first, n_steps = reference[POSITION], reference["evaluations/value"].shape[0]
-    check(n_steps >= STEPS, f"{name}: only {n_steps} steps")
+    check(n_steps >= steps_of(name), f"{name}: only {n_steps} steps")
     if sums == "fmm":
         check(reference["fmm_order/value"].min() > 0, f"{name}: sums were direct")
         # More than the rounding of pairs: some boxes meet by expansions.
         check(np.nanmax(reference["velocity_error/value"]) > 1e-6, f"{name}: nothing is far")
     moved = np.abs(first[-1] - first[0]).max()
-    check(moved > 1e-4, f"{name}: nothing moves")
+    check(moved > 1e-6 * steps_of(name), f"{name}: nothing moves")
     for n_ranks in (2, 3, 4):
         unequal = differences(arrays(runs[n_ranks]), reference)
         check(not unequal, f"{name}: on {n_ranks} ranks these differ: {unequal}")
@@ -155,9 +165,10 @@ def check_restart(program, mpirun, folder, name):
     scene, reference = check_case(program, mpirun, folder, name)
     broken = folder / f"{name}_broken"
     shutil.rmtree(broken, ignore_errors=True)
-    end = f"time.end={STEPS * STEP}"
-    # Killed as a whole behind its second checkpoint, of which there is one at each 20 steps.
-    run_words = [program, "run", scene, "-o", broken, "--set", end, "--set", f"checkpoint.simulated_interval={20 * STEP}"]
+    end = f"time.end={steps_of(name) * STEP}"
+    # Killed as a whole behind its second checkpoint, of which there is one at each fifth of the steps.
+    interval = steps_of(name) // 5 * STEP
+    run_words = [program, "run", scene, "-o", broken, "--set", end, "--set", f"checkpoint.simulated_interval={interval}"]
     result = subprocess.run([str(word) for word in command(mpirun, 2, *run_words)], capture_output=True, text=True,
                             env={**os.environ, **RANKS, "SKEIN_TEST_KILL": "checkpoint.after_rename:3"})
     check(result.returncode != 0, f"{name}: was not killed")
