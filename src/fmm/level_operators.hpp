@@ -3,8 +3,8 @@
 #include "fmm/fmm_operator_set.hpp"
 
 #include <cstdint>
-#include <unordered_map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace skein {
