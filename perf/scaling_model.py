@@ -153,9 +153,9 @@ def draw(model, path):
               f"{ends} nodes on, most of it {largest}; efficiency on 4, 16, 64: "
               f"{efficiency[2]:.2f}, {efficiency[4]:.2f}, {efficiency[6]:.2f}")
     axes[0].set_ylabel("seconds of an evaluation")
-    axes[0].legend(fontsize=8, loc="upper right")
+    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=7)
     figure.suptitle(f"Extrapolated: {LATENCY * 1e6:g} us, {BANDWIDTH / 1e9:g} GB/s; positions on every rank, a tree in parts for {KEPT:g} sums", fontsize=10)
-    figure.tight_layout()
+    figure.tight_layout(rect=(0.0, 0.06, 1.0, 1.0))
     figure.savefig(path, dpi=120)
 
 
