@@ -5,8 +5,8 @@
 
 #include "sum_order.hpp"
 
-#include <map>
 #include <string>
+#include <unordered_map>
 
 namespace skein {
 
@@ -55,7 +55,7 @@ class NodeParts {
  private:
   RankParts owners_;
   int rank_;
-  std::map<int, Vectors> parts_;
+  std::unordered_map<int, Vectors> parts_;
 };
 
 }  // namespace skein

@@ -7,9 +7,9 @@
 #include "node_parts.hpp"
 #include "sum_order.hpp"
 
-#include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace skein {
@@ -85,7 +85,7 @@ class OwnedNodes final : public SharedNodes {
   std::shared_ptr<SharedForces> forces_;
   const BackgroundFlow& flow_;
   RankParts owners_;
-  std::map<const double*, Part> parts_;  ///< by where rank 0's rows are
+  std::unordered_map<const double*, Part> parts_;  ///< by where rank 0's rows are
   int next_number_ = 0;
   SumOrder order_;
   std::vector<Vectors> rooms_;         ///< for whole arrays; those that nobody else holds are free

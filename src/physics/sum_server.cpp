@@ -9,9 +9,9 @@
 #include "force_share.hpp"
 #include "node_parts.hpp"
 
-#include <map>
 #include <new>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace skein {
@@ -173,8 +173,8 @@ class SumServer {
   SumOrder order_;
   OrderedNodes nodes_;
   DirectShare direct_;
-  std::map<int, ServedFmmSum> sums_;
-  std::map<int, ServedScene> scenes_;
+  std::unordered_map<int, ServedFmmSum> sums_;
+  std::unordered_map<int, ServedScene> scenes_;
 };
 
 }  // namespace
