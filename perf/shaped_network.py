@@ -121,6 +121,7 @@ def main():
                     link = measure_link(network, read_quantity(bandwidth))
                     measured.append(((latency, bandwidth), link, run_bench(bench, n_nodes, network, folder)))
     model = Model([alone] + [row for _, _, row in measured])
+    model.tree = model.whole_tree  # what ranks measured of their parts has the network in it
     print(f"{n_nodes} nodes in a cube, one rank alone: {alone['fastest_s']:.3g} s, of which the model knows "
           f"{sum(model.seconds(n_nodes, 1, cores=1, kept=1.0, in_run=False)[part] for part in ('shared', 'tree')):.3g} s")
     print("| link | as measured | ranks | sum | by the model | of this the network | model / measured |")
