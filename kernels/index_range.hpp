@@ -10,9 +10,13 @@ struct IndexRange {
   int count = 0;
 };
 
-/// True where ranges share an index.
-SKEIN_INLINE_FUNCTION bool overlap(const IndexRange& a, const IndexRange& b) {
-  return a.count > 0 && b.count > 0 && a.first < b.first + b.count && b.first < a.first + a.count;
+/// The indices that both have.
+SKEIN_INLINE_FUNCTION IndexRange common(const IndexRange& a, const IndexRange& b) {
+  const int first = math::larger(a.first, b.first), end = math::smaller(a.first + a.count, b.first + b.count);
+  return {first, math::larger(0, end - first)};
 }
+
+/// True where ranges share an index.
+SKEIN_INLINE_FUNCTION bool overlap(const IndexRange& a, const IndexRange& b) { return common(a, b).count > 0; }
 
 }  // namespace skein

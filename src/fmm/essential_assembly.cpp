@@ -23,11 +23,6 @@ Entry make_entry(const Box& box, const int owner, const int first_tile) {
 /// What n_children is before children are counted.
 constexpr int no_children = 0, unknown_children = -1;
 
-IndexRange meet(const IndexRange a, const IndexRange b) {
-  const int first = math::larger(a.first, b.first), end = math::smaller(a.first + a.count, b.first + b.count);
-  return {first, math::larger(0, end - first)};
-}
-
 }  // namespace
 
 void EssentialTree::assemble(const std::vector<std::vector<BoxRecord>>& others, const int n_levels, HostOctree& tree) {
@@ -59,7 +54,6 @@ void EssentialTree::assemble(const std::vector<std::vector<BoxRecord>>& others, 
   tree.level_first = {0};
   owner_.clear();
   first_tile_.clear();
-  begins_here_.clear();
   std::vector<Box> boxes;
   const IndexRange own = deal_.own_places();
   std::vector<std::uint64_t> above, here;
@@ -78,7 +72,7 @@ void EssentialTree::assemble(const std::vector<std::vector<BoxRecord>>& others, 
       box.octant = static_cast<int>(entry.cell & 7);
       box.parent = -1;
       box.first_child = 0;
-      box.targets = meet(box.sources, own);
+      box.targets = common(box.sources, own);
       if (box.level > 0) {
         while (above[parent] < entry.cell >> 3) ++parent;
         box.parent = static_cast<int>(first_above + parent);
@@ -91,8 +85,6 @@ void EssentialTree::assemble(const std::vector<std::vector<BoxRecord>>& others, 
       }
       boxes.push_back(box);
       here.push_back(entry.cell);
-      const int first = entry.box.sources.first;
-      begins_here_.push_back(first >= own.first && first < own.first + own.count ? 1 : 0);
       owner_.push_back(entry.owner);
       first_tile_.push_back(entry.first_tile);
     }

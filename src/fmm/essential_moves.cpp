@@ -9,7 +9,6 @@
 namespace skein {
 namespace {
 
-/// @returns n_boxes where there is none
 int find_box(const HostOctree& tree, const CellName& name) {
   Box wanted;
   wanted.level = name.level;
@@ -88,7 +87,7 @@ RankShares EssentialTree::make_shares(Communicator& ranks, const HostOctree& tre
   RankShares shares;
   shares.rank = rank_;
   shares.n_ranks = ranks.size();
-  shares.balance = balance();
+  shares.balance = deal_.top().balance;
   for (int edge = 0; edge <= shares.n_ranks; ++edge)
     shares.first_target.push_back(own_places_.first + (edge > rank_ ? own_places_.count : 0));
   shares.first_source = shares.first_target;
@@ -149,7 +148,7 @@ std::vector<float> EssentialTree::weigh(const HostOctree& tree, const FmmPlan& p
 
 double EssentialTree::bytes() const {
   return deal_.bytes() + to_neighbours_.bytes() + 4.0 * static_cast<double>(place_of_copy_.size()) +
-         9.0 * static_cast<double>(owner_.size()) + static_cast<double>(own_leaves_.extent(0) * sizeof(Box));
+         8.0 * static_cast<double>(owner_.size()) + static_cast<double>(own_leaves_.extent(0) * sizeof(Box));
 }
 
 }  // namespace skein

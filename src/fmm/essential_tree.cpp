@@ -26,8 +26,9 @@ void EssentialTree::build(Communicator& ranks, const ConstVectorView<HostSpace>&
   const HostSpace space;
   build_far_lists(space, tree);
   build_near_lists(space, tree);
+  const double far_pairs = count_far_pairs(tree);
   ask_for_nodes(ranks, tree);
-  add_up(ranks, tree);
+  add_up(ranks, far_pairs, tree);
 }
 
 void EssentialTree::split_own(const OctreeCube& cube) {
@@ -82,12 +83,19 @@ int EssentialTree::number_tiles(Communicator& ranks) {
   return n_levels;
 }
 
-void EssentialTree::add_up(Communicator& ranks, HostOctree& tree) {
+/// While boxes have places in the order of all nodes: each is counted by the rank that has its first node.
+double EssentialTree::count_far_pairs(const HostOctree& tree) const {
   double far_pairs = 0.0;
+  for (int b = 0; b < tree.n_boxes(); ++b)
+    if (overlap({tree.box(b).sources.first, 1}, deal_.own_places()))
+      far_pairs += static_cast<double>(tree.v_list.of(b).size());
+  return far_pairs;
+}
+
+void EssentialTree::add_up(Communicator& ranks, const double far_pairs, HostOctree& tree) {
   std::vector<Box> leaves;
   for (int b = 0; b < tree.n_boxes(); ++b) {
     const Box& box = tree.box(b);
-    if (begins_here_[static_cast<std::size_t>(b)] != 0) far_pairs += static_cast<double>(tree.v_list.of(b).size());
     if (box.is_leaf() && owner_[static_cast<std::size_t>(b)] == rank_) leaves.push_back(box);
   }
   own_leaves_ = Kokkos::View<Box*, HostSpace>("skein::EssentialTree::own_leaves", leaves.size());

@@ -45,7 +45,6 @@ class EssentialTree {
     double near_pairs = 0.0, far_pairs = 0.0;
   };
   const Totals& totals() const { return totals_; }
-  double balance() const { return deal_.top().balance; }
   /// Besides the tree.
   double bytes() const;
 
@@ -54,7 +53,8 @@ class EssentialTree {
   int number_tiles(Communicator& ranks);
   void assemble(const std::vector<std::vector<BoxRecord>>& others, int n_levels, HostOctree& tree);
   void ask_for_nodes(Communicator& ranks, HostOctree& tree);
-  void add_up(Communicator& ranks, HostOctree& tree);
+  double count_far_pairs(const HostOctree& tree) const;
+  void add_up(Communicator& ranks, double far_pairs, HostOctree& tree);
   std::vector<float> weigh(const HostOctree& tree, const FmmPlan& plan, bool is_symmetric) const;
 
   int rank_ = 0;
@@ -66,7 +66,6 @@ class EssentialTree {
   std::vector<int> place_of_copy_;  ///< in the tree
   std::vector<int> owner_;          ///< per box of the tree: rank, or TopTree::several
   std::vector<int> first_tile_;
-  std::vector<char> begins_here_;  ///< per box of the tree: this rank has its first node
   Kokkos::View<Box*, HostSpace> own_leaves_;
   Totals totals_;
 };

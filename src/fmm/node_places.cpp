@@ -32,9 +32,8 @@ IndexRange NodePlaces::find(const IndexRange of_all) const {
 std::vector<IndexRange> NodePlaces::list_between(const IndexRange of_all) const {
   std::vector<IndexRange> runs;
   for (const Piece& piece : pieces_) {
-    const int first = std::max(piece.of_all.first, of_all.first);
-    const int end = std::min(piece.of_all.first + piece.of_all.count, of_all.first + of_all.count);
-    if (end > first) runs.push_back({first, end - first});
+    const IndexRange run = common(piece.of_all, of_all);
+    if (run.count > 0) runs.push_back(run);
   }
   return runs;
 }

@@ -30,8 +30,14 @@ KOKKOS_INLINE_FUNCTION int find_octant_end(const Keys& key, int first, int last,
 /// Where the nodes of a box's octants begin; octant 8 ends them.
 struct OctantBounds {
   int source[9], target[9];
+  KOKKOS_INLINE_FUNCTION IndexRange sources(const int octant) const {
+    return {source[octant], source[octant + 1] - source[octant]};
+  }
+  KOKKOS_INLINE_FUNCTION IndexRange targets(const int octant) const {
+    return {target[octant], target[octant + 1] - target[octant]};
+  }
   KOKKOS_INLINE_FUNCTION bool has(const int octant) const {
-    return source[octant + 1] > source[octant] || target[octant + 1] > target[octant];
+    return sources(octant).count > 0 || targets(octant).count > 0;
   }
 };
 
@@ -50,20 +56,6 @@ KOKKOS_INLINE_FUNCTION OctantBounds find_octants(const Keys& source_key, const K
                                     : find_octant_end(target_key, bounds.target[octant], last_target, shift, bits);
   }
   return bounds;
-}
-
-KOKKOS_INLINE_FUNCTION Box make_child(const Box& parent, const int parent_index, const int octant,
-                                      const OctantBounds& bounds) {
-  Box child;
-  child.level = parent.level + 1;
-  child.parent = parent_index;
-  child.octant = octant;
-  for (int c = 0; c < 3; ++c) child.cell[c] = 2 * parent.cell[c] + (octant >> c & 1);
-  child.sources.first = bounds.source[octant];
-  child.sources.count = bounds.source[octant + 1] - bounds.source[octant];
-  child.targets.first = bounds.target[octant];
-  child.targets.count = bounds.target[octant + 1] - bounds.target[octant];
-  return child;
 }
 
 /// The boxes below one level, in the order of their parents and octants.
@@ -101,7 +93,8 @@ void split_level(const Space& space, Octree<Space>& tree, const int level) {
         box.n_children = count(k + 1) - count(k);
         int child = box.first_child;
         for (int octant = 0; octant < 8; ++octant)
-          if (bounds.has(octant)) boxes(child++) = make_child(box, parent, octant, bounds);
+          if (bounds.has(octant))
+            boxes(child++) = make_child(box, parent, octant, bounds.sources(octant), bounds.targets(octant));
         boxes(parent) = box;
       });
   tree.level_first.push_back(n_boxes);

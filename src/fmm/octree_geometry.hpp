@@ -22,6 +22,19 @@ struct Box {
   SKEIN_INLINE_FUNCTION bool is_leaf() const { return n_children == 0; }
 };
 
+/// @param sources, targets  of the octant
+SKEIN_INLINE_FUNCTION Box make_child(const Box& parent, const int parent_index, const int octant,
+                                     const IndexRange sources, const IndexRange targets) {
+  Box child;
+  child.level = parent.level + 1;
+  child.parent = parent_index;
+  child.octant = octant;
+  for (int c = 0; c < 3; ++c) child.cell[c] = 2 * parent.cell[c] + (octant >> c & 1);
+  child.sources = sources;
+  child.targets = targets;
+  return child;
+}
+
 /// A pair of the V lists: boxes of one level that do not touch, while their parents do.
 struct FarPair {
   int target = 0, source = 0;

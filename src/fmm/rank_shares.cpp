@@ -44,10 +44,6 @@ std::vector<int> cut_sources(const HostOctree& tree, const int n_ranks) {
   return cut_work(pieces, tree.n_sources, n_ranks, ignored);
 }
 
-int rank_of(const std::vector<int>& first, const int place) {
-  return static_cast<int>(std::upper_bound(first.begin(), first.end() - 1, place) - first.begin()) - 1;
-}
-
 /// Of the sources of each box.
 std::vector<int> find_owners(const HostOctree& tree, const std::vector<int>& first_source) {
   std::vector<int> owners;
@@ -127,6 +123,10 @@ std::vector<IndexRange> find_source_runs(const HostOctree& tree, const RankShare
 }
 
 }  // namespace
+
+int rank_of(const std::vector<int>& first, const int place) {
+  return static_cast<int>(std::upper_bound(first.begin(), first.end() - 1, place) - first.begin()) - 1;
+}
 
 void widen(IndexRange& boxes, const int b) {
   if (boxes.count == 0) boxes.first = b;

@@ -46,6 +46,9 @@ struct RankShares {
   }
 };
 
+/// Who has a place. @param first  [n_ranks + 1], where the places of each rank begin
+int rank_of(const std::vector<int>& first, int place);
+
 /// Boxes of a level, and another one behind them with all between.
 void widen(IndexRange& boxes, int b);
 

@@ -1,9 +1,5 @@
 #include "fmm/row_moves.hpp"
 
-#include "fmm/essential_boxes.hpp"
-
-#include <cstring>
-#include <type_traits>
 #include <utility>
 
 namespace skein {
@@ -51,35 +47,22 @@ std::vector<double> RowMoves::send_back(Communicator& ranks, const std::vector<d
   return move(ranks, numbers, times(n_from_, width), times(n_to_, width));
 }
 
-template <class Entry>
-std::vector<std::vector<Entry>> exchange_lists(Communicator& ranks, const std::vector<std::vector<Entry>>& lists) {
-  static_assert(std::is_trivially_copyable_v<Entry> && sizeof(Entry) % sizeof(double) == 0);
-  constexpr std::size_t width = sizeof(Entry) / sizeof(double);
+std::vector<std::vector<double>> exchange_lists(Communicator& ranks, const std::vector<std::vector<double>>& lists) {
   std::vector<std::size_t> n_to;
-  for (const std::vector<Entry>& list : lists) n_to.push_back(list.size());
-  const std::vector<std::size_t> n_from = tell_counts(ranks, n_to);
   std::vector<double> packed;
-  for (const std::vector<Entry>& list : lists) {
-    const std::size_t n_before = packed.size();
-    packed.resize(n_before + width * list.size());
-    if (!list.empty()) std::memcpy(packed.data() + n_before, list.data(), list.size() * sizeof(Entry));
+  for (const std::vector<double>& list : lists) {
+    n_to.push_back(list.size());
+    packed.insert(packed.end(), list.begin(), list.end());
   }
-  const std::vector<double> received = move(ranks, packed, times(n_to, width), times(n_from, width));
-  std::vector<std::vector<Entry>> there;
-  const double* from = received.data();
+  const std::vector<std::size_t> n_from = tell_counts(ranks, n_to);
+  const std::vector<double> received = move(ranks, packed, std::move(n_to), n_from);
+  std::vector<std::vector<double>> there;
+  auto next = received.begin();
   for (const std::size_t n : n_from) {
-    there.emplace_back(n);
-    if (n > 0) std::memcpy(static_cast<void*>(there.back().data()), from, n * sizeof(Entry));
-    from += width * n;
+    there.emplace_back(next, next + static_cast<std::ptrdiff_t>(n));
+    next += static_cast<std::ptrdiff_t>(n);
   }
   return there;
 }
-
-template std::vector<std::vector<std::uint64_t>> exchange_lists(Communicator&,
-                                                                const std::vector<std::vector<std::uint64_t>>&);
-template std::vector<std::vector<BoxRecord>> exchange_lists(Communicator&, const std::vector<std::vector<BoxRecord>>&);
-template std::vector<std::vector<IndexRange>> exchange_lists(Communicator&,
-                                                             const std::vector<std::vector<IndexRange>>&);
-template std::vector<std::vector<CellName>> exchange_lists(Communicator&, const std::vector<std::vector<CellName>>&);
 
 }  // namespace skein

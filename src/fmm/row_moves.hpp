@@ -3,6 +3,8 @@
 #include <skein/ranks/communicator.hpp>
 
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 namespace skein {
@@ -28,8 +30,26 @@ class RowMoves {
   std::vector<std::size_t> n_to_, n_from_;  ///< [n_ranks]
 };
 
-/// To be called by all ranks: entries for each rank, packed behind each other. @returns what came for this one, by rank
+/// To be called by all ranks: numbers for each rank. @returns what came for this one, by rank
+std::vector<std::vector<double>> exchange_lists(Communicator& ranks, const std::vector<std::vector<double>>& lists);
+
+/// The same of other entries, which are moved as their bytes.
 template <class Entry>
-std::vector<std::vector<Entry>> exchange_lists(Communicator& ranks, const std::vector<std::vector<Entry>>& lists);
+std::vector<std::vector<Entry>> exchange_lists(Communicator& ranks, const std::vector<std::vector<Entry>>& lists) {
+  static_assert(std::is_trivially_copyable_v<Entry> && sizeof(Entry) % sizeof(double) == 0);
+  constexpr std::size_t width = sizeof(Entry) / sizeof(double);
+  std::vector<std::vector<double>> numbers;
+  for (const std::vector<Entry>& list : lists) {
+    numbers.emplace_back(width * list.size());
+    if (!list.empty()) std::memcpy(numbers.back().data(), list.data(), list.size() * sizeof(Entry));
+  }
+  std::vector<std::vector<Entry>> there;
+  for (const std::vector<double>& received : exchange_lists(ranks, numbers)) {
+    there.emplace_back(received.size() / width);
+    if (!received.empty())
+      std::memcpy(static_cast<void*>(there.back().data()), received.data(), received.size() * sizeof(double));
+  }
+  return there;
+}
 
 }  // namespace skein

@@ -56,11 +56,8 @@ RankShares share_targets(const Octree<ExecSpace>& tree, const FmmPlan& plan, con
   for (int level = 0; level < tree.n_levels(); ++level) {
     const IndexRange all = tree.level(level);
     IndexRange own_boxes;
-    for (int b = all.first; b < all.first + all.count; ++b) {
-      if (!overlap(boxes(b).targets, own)) continue;
-      if (own_boxes.count == 0) own_boxes.first = b;
-      own_boxes.count = b + 1 - own_boxes.first;
-    }
+    for (int b = all.first; b < all.first + all.count; ++b)
+      if (overlap(boxes(b).targets, own)) widen(own_boxes, b);
     shares.source_boxes.push_back(all);
     shares.target_boxes.push_back(own_boxes);
   }

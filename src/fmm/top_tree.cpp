@@ -1,7 +1,8 @@
 #include "fmm/top_tree.hpp"
 
+#include "fmm/rank_shares.hpp"
+
 #include <algorithm>
-#include <numeric>
 
 namespace skein {
 namespace {
@@ -30,16 +31,6 @@ struct OctantEdges {
   }
 };
 
-Box make_child(const Box& parent, const int parent_index, const int octant, const IndexRange nodes) {
-  Box child;
-  child.level = parent.level + 1;
-  child.parent = parent_index;
-  child.octant = octant;
-  for (int c = 0; c < 3; ++c) child.cell[c] = 2 * parent.cell[c] + (octant >> c & 1);
-  child.sources = child.targets = nodes;
-  return child;
-}
-
 /// To be added behind all boxes that there are. @param count  of nodes, per octant
 void add_children(const int parent, const int (&count)[8], std::vector<Box>& boxes) {
   const auto p = static_cast<std::size_t>(parent);
@@ -48,7 +39,8 @@ void add_children(const int parent, const int (&count)[8], std::vector<Box>& box
   for (int octant = 0; octant < 8; first += count[octant++]) {
     if (count[octant] == 0) continue;
     ++boxes[p].n_children;
-    boxes.push_back(make_child(boxes[p], parent, octant, {first, count[octant]}));
+    const IndexRange nodes{first, count[octant]};
+    boxes.push_back(make_child(boxes[p], parent, octant, nodes, nodes));
   }
 }
 
@@ -66,27 +58,19 @@ std::vector<double> count_octants(const SortedKeys& own, const OctreeCube& cube,
   return numbers;
 }
 
-/// Consecutive leaves for each rank, with about as much work; then who has all of a box.
+/// Leaves go to ranks, and then it is known who has all of a box.
 void deal(const std::vector<double>& work, const int n_ranks, TopTree& top) {
-  const auto work_of = [&](const int leaf) { return work[static_cast<std::size_t>(leaf)]; };
-  double total = 0.0;
-  for (const int leaf : top.leaves) total += work_of(leaf);
-  std::vector<double> of_rank(static_cast<std::size_t>(n_ranks));
-  top.owner.assign(top.boxes.size(), TopTree::several);
-  double before = 0.0;
-  int rank = 0;
+  std::vector<WorkPiece> pieces;
   for (const int leaf : top.leaves) {
-    const int n_before = top.boxes[static_cast<std::size_t>(leaf)].sources.first;
-    while (rank + 1 < n_ranks && (before + 0.5 * work_of(leaf)) * n_ranks > total * (rank + 1)) {
-      ++rank;
-      top.first_node.push_back(n_before);
-    }
-    top.owner[static_cast<std::size_t>(leaf)] = rank;
-    of_rank[static_cast<std::size_t>(rank)] += work_of(leaf);
-    before += work_of(leaf);
+    const auto l = static_cast<std::size_t>(leaf);
+    pieces.push_back({top.boxes[l].sources.first, work[l], true});
   }
-  top.first_node.resize(static_cast<std::size_t>(n_ranks) + 1, top.boxes.front().sources.count);
-  if (total > 0.0) top.balance = *std::max_element(of_rank.begin(), of_rank.end()) * n_ranks / total;
+  top.first_node = cut_work(pieces, top.boxes.front().sources.count, n_ranks, top.balance);
+  top.owner.assign(top.boxes.size(), TopTree::several);
+  for (const int leaf : top.leaves) {
+    const auto l = static_cast<std::size_t>(leaf);
+    top.owner[l] = rank_of(top.first_node, top.boxes[l].sources.first);
+  }
   for (std::size_t b = top.boxes.size(); b-- > 0;) {
     const Box& box = top.boxes[b];
     if (box.is_leaf()) continue;
@@ -102,7 +86,6 @@ std::uint64_t first_key(const Box& box, const int max_depth) { return cell_key(b
 
 TopTree make_top_tree(Communicator& ranks, const OctreeCube& cube, const SortedKeys& own, const int n_nodes) {
   TopTree top;
-  top.first_node = {0};
   Box root;
   root.sources.count = root.targets.count = n_nodes;
   top.boxes = {root};
