@@ -1,76 +1,23 @@
 // What ranks do with their parts of arrays has the bits of what rank 0 does with whole ones.
-#include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
-#include <skein/physics/direct_mobility.hpp>
-#include <skein/physics/fmm_mobility.hpp>
-#include <skein/physics/shared_nodes.hpp>
-#include <skein/physics/sum_team.hpp>
 #include <skein/solvers/right_hand_side_decorator.hpp>
 
-#include "tests/support/rank_team.hpp"
+#include "tests/property/owned_nodes_case.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <random>
 
 namespace skein {
 namespace {
 
-using Nodes = std::vector<Vec3>;
-
-Nodes make_noise(const int n, const unsigned seed) {
-  std::mt19937_64 random(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Nodes nodes(static_cast<std::size_t>(n));
-  for (Vec3& v : nodes) v = {uniform(random), uniform(random), uniform(random)};
-  return nodes;
-}
-
-bool is_same(const Nodes& a, const Nodes& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
-bool is_same(const double a, const double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-
-Nodes read(const ConstVectors& vectors) { return to_host(vectors); }
-
-/// Sections of 9 and 5 nodes, so that no edge between ranks is one of a chunk of a dot product.
-SceneConfig make_scene(const int sections, const SumMethod sums = SumMethod::direct) {
-  SceneConfig scene;
-  FiberConfig thick, thin;
-  thick.sections = thin.sections = sections;
-  thick.nodes_per_section = 9;
-  thin.nodes_per_section = 5;
-  thick.start_amplitude = thin.start_amplitude = 0.02;
-  thick.direction = {1.0, 0.4, 0.1};
-  thin.direction = {1.0, 0.5, 0.0};
-  thin.center = {0.0, 0.0, 0.03};
-  thick.blob = thin.blob = 0.0045;
-  scene.fibers = {thick, thin};
-  scene.flows.emplace_back().rate = 2.5;
-  scene.hydrodynamics.method = sums;
-  scene.hydrodynamics.tolerance = 1e-3;
-  scene.hydrodynamics.check_every = 7;
-  return scene;
-}
-
-/// Physics that ranks share, and arrays of both kinds.
-struct Case {
-  Physics physics;
-  FiberDynamics dynamics{physics};
-  int n_nodes = count_nodes(physics.fibers);
-
-  explicit Case(const SceneConfig& scene) : physics(make_physics(scene, test::find_team())) {}
-  NodeVectors& parts() { return *physics.shared_nodes; }
-  Vectors part_of(const Nodes& nodes) {
-    const Vectors part = parts().make("part", n_nodes);
-    parts().scatter(to_device("whole", nodes), part);
-    return part;
-  }
-  Nodes whole_of(const Vectors& part) { return read(parts().gather(part)); }
-};
+using test::Case;
+using test::is_same;
+using test::make_noise;
+using test::make_scene;
+using test::Nodes;
+using test::read;
 
 /// Numbers of nodes on both sides of chunks of 256, and fewer sections than ranks.
 constexpr int section_counts[] = {2, 3, 18, 19, 37, 120};
@@ -142,129 +89,6 @@ TEST(OwnedNodes, GiveBackWhatNobodyUses) {
   const Vectors kept = made.part_of(nodes);
   for (unsigned i = 0; i < 30; ++i) made.part_of(make_noise(made.n_nodes, i));
   EXPECT_TRUE(is_same(made.whole_of(kept), nodes));
-}
-
-/// Velocities of all kinds of sums, from nodes that are owned by ranks and from whole arrays.
-TEST(OwnedNodes, HaveTheVelocitiesOfWholeArrays) {
-  SceneConfig many = make_scene(120, SumMethod::fmm);
-  SceneConfig two_blobs = make_scene(30);
-  two_blobs.fibers[1].blob = 0.006;
-  for (const SceneConfig& scene : {make_scene(3), make_scene(40), two_blobs, many}) {
-    Case made(scene);
-    const Nodes start = made.physics.make_start_nodes(1);
-    const Vectors position = to_device("position", start), velocity("velocity", start.size());
-    const Vectors part = made.part_of(start), velocity_part = made.parts().make("velocity", made.n_nodes);
-    // Also in a step, where trees serve several sums, and where some of them are compared with direct ones.
-    made.dynamics.begin_step();
-    for (int i = 0; i < 9; ++i) {
-      made.dynamics.compute_velocity(0.1, position, velocity);
-      made.dynamics.compute_velocity(0.1, part, velocity_part);
-      ASSERT_TRUE(is_same(made.whole_of(velocity_part), read(velocity))) << i;
-      whole_vectors().combine(position, {{1.0, position}, {1e-4, velocity}});
-      made.parts().combine(part, {{1.0, part}, {1e-4, velocity_part}});
-    }
-    made.dynamics.end_step();
-    EXPECT_EQ(made.physics.mobility->error_record().n_checks > 0, scene.hydrodynamics.method == SumMethod::fmm);
-    EXPECT_GT(whole_vectors().root_mean_square(velocity), 1e-3);
-  }
-}
-
-/// So many nodes that each rank makes a part of the tree: velocities are those of one process, which has it whole.
-TEST(OwnedNodes, HaveTheVelocitiesOfOneProcessWhereTreesAreInParts) {
-  SceneConfig scene = make_scene(5500, SumMethod::fmm);
-  scene.hydrodynamics.check_every = 2;
-  Case made(scene);
-  Physics alone = make_physics(scene);
-  FiberDynamics dynamics(alone);
-  const Nodes start = alone.make_start_nodes(1);
-  const Vectors position = to_device("position", start), velocity("velocity", start.size());
-  const Vectors part = made.part_of(start), velocity_part = made.parts().make("velocity", made.n_nodes);
-  for (RightHandSide* const each :
-       {static_cast<RightHandSide*>(&dynamics), static_cast<RightHandSide*>(&made.dynamics)})
-    each->begin_step();
-  for (int i = 0; i < 3; ++i) {
-    dynamics.compute_velocity(0.1, position, velocity);
-    made.dynamics.compute_velocity(0.1, part, velocity_part);
-    ASSERT_TRUE(is_same(made.whole_of(velocity_part), read(velocity))) << i;
-    whole_vectors().combine(position, {{1.0, position}, {1e-5, velocity}});
-    made.parts().combine(part, {{1.0, part}, {1e-5, velocity_part}});
-  }
-  EXPECT_NE(test::find_team()->partition().find("each rank has a part"), std::string::npos);
-  EXPECT_GT(made.physics.mobility->error_record().n_checks, 1);
-  EXPECT_EQ(made.physics.mobility->error_record().largest, alone.mobility->error_record().largest);
-  made.dynamics.end_step();
-  dynamics.end_step();
-  made.dynamics.compute_velocity(0.1, position, velocity);  // of whole arrays
-  const Nodes with_ranks = read(velocity);
-  dynamics.compute_velocity(0.1, position, velocity);
-  EXPECT_TRUE(is_same(with_ranks, read(velocity)));
-}
-
-/// As sums are made on devices, which have an order of their own. @param team  null: one process
-std::unique_ptr<Mobility> make_device_mobility(const SumMethod sums, const Precision precision, SumTeam* team) {
-  if (sums == SumMethod::direct) return std::make_unique<DirectMobility>(1.0, precision, KernelPath::device, team);
-  FmmOptions options;
-  options.path = KernelPath::device;
-  options.precision = precision;
-  options.tolerance = 1e-3;
-  options.leaf_size = 20;
-  options.check_every = 7;
-  return std::make_unique<FmmMobility>(1.0, options, team);
-}
-
-TEST(OwnedNodes, HaveTheVelocitiesOfOneProcessFromSumsOnDevices) {
-  for (const SumMethod sums : {SumMethod::direct, SumMethod::fmm})
-    for (const Precision precision : {Precision::in_double, Precision::in_single}) {
-      const SceneConfig scene = make_scene(120);
-      Case made(scene);
-      Physics physics_of_one = make_physics(scene);
-      FiberDynamics of_one(physics_of_one);
-      made.physics.mobility = make_device_mobility(sums, precision, test::find_team());
-      physics_of_one.mobility = make_device_mobility(sums, precision, nullptr);
-      ASSERT_EQ(&made.dynamics.vectors(), made.physics.shared_nodes.get());
-      const Nodes start = made.physics.make_start_nodes(1);
-      const Vectors position = to_device("position", start), velocity("velocity", start.size());
-      const Vectors part = made.part_of(start), velocity_part = made.parts().make("velocity", made.n_nodes);
-      made.dynamics.begin_step();
-      of_one.begin_step();
-      for (int i = 0; i < 9; ++i) {
-        of_one.compute_velocity(0.1, position, velocity);
-        const Nodes expected = read(velocity);
-        made.dynamics.compute_velocity(0.1, position, velocity);
-        ASSERT_TRUE(is_same(read(velocity), expected)) << i << ", on rank 0";
-        made.dynamics.compute_velocity(0.1, part, velocity_part);
-        ASSERT_TRUE(is_same(made.whole_of(velocity_part), expected)) << i;
-        whole_vectors().combine(position, {{1.0, position}, {1e-4, velocity}});
-        made.parts().combine(part, {{1.0, part}, {1e-4, velocity_part}});
-      }
-      made.dynamics.end_step();
-      of_one.end_step();
-      EXPECT_EQ(made.physics.mobility->error_record().n_checks > 0, sums == SumMethod::fmm);
-      EXPECT_EQ(made.physics.mobility->error_record().n_approximate > 0, sums == SumMethod::fmm);
-    }
-}
-
-/// Each has a first step, in which it may keep its tree, and the second has the nodes a little farther on.
-TEST(OwnedNodes, HaveSumsThatKnowNothingOfThoseBefore) {
-  const SceneConfig scene = make_scene(120, SumMethod::fmm);
-  Physics physics_of_one = make_physics(scene);
-  const Nodes start = physics_of_one.make_start_nodes(1);
-  const Vectors position = to_device("position", start), velocity("velocity", start.size());
-  for (int k = 0; k < 4; ++k) {
-    Case made(scene);
-    Case one_process(scene);
-    one_process.physics.mobility = make_physics(scene).mobility;
-    for (Case* const with : {&one_process, &made}) {
-      with->dynamics.begin_step();
-      with->dynamics.compute_velocity(0.1, position, velocity);
-      with->dynamics.end_step();
-      if (with == &one_process) continue;
-      const Vectors expected("expected", start.size());
-      one_process.dynamics.compute_velocity(0.1, position, expected);
-      ASSERT_TRUE(is_same(read(velocity), read(expected))) << k;
-    }
-    whole_vectors().combine(position, {{1.0, position}, {3e-4, velocity}});
-  }
 }
 
 /// Integrators that work with whole arrays, as those of one process.
