@@ -1,13 +1,16 @@
 // Sums that ranks share, by the wall time of rank 0, and what it takes of each rank. By itself, or under mpirun.
-// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run [sections=N]] [repeats=N] [tiny]
-//        [mpirun -n N] bench_ranks parts [only=N_NODES] [repeats=N] [tiny]
-// `run` takes steps of RKC2 with the fiber of 23 634 nodes, for a table of its own: seconds an evaluation by part, of
-// which the flow is that of one rank's nodes, and `alone` what rank 0 does for all nodes at the end of a step. Lines of
-// `whole` are of steps whose nodes are all rank 0's, taken in turns with the others.
+// Usage: [mpirun -n N] bench_ranks [direct] [fiber] [cube [only=N_NODES]] [run [trbdf2] [sections=N]] [repeats=N]
+//        [mpirun -n N] bench_ranks parts [only=N_NODES] [repeats=N]
+// `tiny` makes all of it small.
+//
+// `run` takes steps of RKC2, or of TR-BDF2, with the fiber of 23 634 nodes, for a table of its own: seconds an
+// evaluation by part, of which the flow is that of one rank's nodes, and `alone` what rank 0 does for all nodes at the
+// end of a step. Lines of `whole` are of steps whose nodes are all rank 0's, taken in turns with the others.
+//
 // `parts`, by itself: a cube of which each rank has its own nodes and a part of the tree, and no rank has all; a line
 // of its own, with the bytes a node of all that the system gave to the rank with the most, and the sum of velocities.
-// A line of each sum: ranks, threads, nodes, seconds (fastest and median), work and waiting of the busiest rank, and
-// bytes.
+//
+// A line of each sum: ranks, threads, nodes, seconds (fastest and median), work and waiting of the busiest rank, bytes.
 
 #include <skein/arrays/runtime.hpp>
 #include <skein/physics/direct_mobility.hpp>
@@ -112,7 +115,8 @@ void run(const Request& asked, SumTeam* team) {
     measure_fmm(problem, team, asked.repeats(60));
   }
   if (tiny || asked.has("run"))
-    perf::measure_steps(asked.number("sections", tiny ? 120 : 1313), team, asked.repeats(60));
+    perf::measure_steps(asked.number("sections", tiny ? 120 : 1313),
+                        asked.has("trbdf2") ? TimeMethod::trbdf2 : TimeMethod::rkc2, team, asked.repeats(60));
   if (tiny || asked.has("cube")) {
     const Problem problem("cube", perf::make_uniform(n_cube), 0.1 / std::cbrt(n_cube));
     measure_fmm(problem, team, asked.repeats(std::clamp(4000000 / n_cube, 3, 40)));

@@ -29,13 +29,14 @@ class WholeDynamics final : public RightHandSideDecorator {
 /// Steps of one kind, and the fastest of them by the time of an evaluation.
 struct Steps {
   const char* name;
-  std::unique_ptr<Integrator> integrator;
-  State state;
+  FiberDynamics& dynamics;
+  std::unique_ptr<Integrator> integrator{};
+  State state{};
   double fastest = 1e300, per_evaluation = 0.0;
-  FiberDynamics::Seconds parts;
-  RankTraffic traffic;
+  FiberDynamics::Seconds parts{};
+  RankTraffic traffic{};
 
-  void take(FiberDynamics& dynamics, SumTeam* team) {
+  void take(SumTeam* team) {
     const FiberDynamics::Seconds before = dynamics.seconds();
     const RankTraffic sent = team != nullptr ? team->ranks().traffic() : RankTraffic{};
     const std::int64_t evaluations = dynamics.evaluations();
@@ -56,7 +57,7 @@ struct Steps {
 
 }  // namespace
 
-void measure_steps(const int sections, SumTeam* team, const int repeats) {
+void measure_steps(const int sections, const TimeMethod method, SumTeam* team, const int repeats) {
   SceneConfig scene;
   FiberConfig& fiber = scene.fibers.emplace_back();
   fiber.sections = sections;
@@ -65,23 +66,22 @@ void measure_steps(const int sections, SumTeam* team, const int repeats) {
   scene.hydrodynamics.method = SumMethod::fmm;
   scene.hydrodynamics.tolerance = 1e-4;
   scene.hydrodynamics.check_every = 0;
-  scene.time.method = TimeMethod::rkc2;
+  scene.time.method = method;
   scene.time.tolerance = 1e-4;
   Physics physics = make_physics(scene, team);
-  FiberDynamics dynamics(physics);
-  WholeDynamics whole(dynamics);
+  FiberDynamics dynamics(physics), other_dynamics(physics);
+  WholeDynamics whole(other_dynamics);
   const std::vector<Vec3> start = physics.make_start_nodes(1);
-  const auto make_steps = [&](const char* name, RightHandSide& rhs) {
-    Steps steps;
-    steps.name = name;
+  const auto make_steps = [&](const char* name, FiberDynamics& of, RightHandSide& rhs) {
+    Steps steps{name, of};
     steps.integrator = make_integrator(scene, physics, rhs);
     steps.state = {0.0, 0, to_device("skein::bench_ranks::position", start)};
     for (int step = 0; step < 10; ++step) steps.integrator->advance(steps.state, 1.0);  // until they are long
     return steps;
   };
   std::vector<Steps> ways;
-  ways.push_back(make_steps("steps", dynamics));
-  if (team != nullptr && team->ranks().size() > 1) ways.push_back(make_steps("whole", whole));
+  ways.push_back(make_steps("steps", dynamics, dynamics));
+  if (team != nullptr && team->ranks().size() > 1) ways.push_back(make_steps("whole", other_dynamics, whole));
   const ConstVectors position = ways.front().state.position;
   const std::size_t n_ranks = static_cast<std::size_t>(team != nullptr ? team->ranks().size() : 1);
   const auto time_flow = [&](const std::size_t n_nodes) {
@@ -95,9 +95,9 @@ void measure_steps(const int sections, SumTeam* team, const int repeats) {
     dynamics.find_fault(position);
     Kokkos::deep_copy(ExecSpace(), copy, position);
   });
-  dynamics.time_parts(true);
+  for (Steps& steps : ways) steps.dynamics.time_parts(true);
   for (int repeat = 0; repeat < repeats; ++repeat)
-    for (Steps& steps : ways) steps.take(dynamics, team);
+    for (Steps& steps : ways) steps.take(team);
   std::printf(
       "steps,ranks,threads,nodes,evaluation_s,sum_s,forces_s,flow_s,integrator_s,alone_s,broadcast_B,shared_B,"
       "exchanged_B,gathered_B,messages\n");

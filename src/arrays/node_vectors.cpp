@@ -27,11 +27,19 @@ void NodeVectors::combine(const Vectors& result, const std::initializer_list<Ter
 
 void NodeVectors::copy(const Vectors& to, const ConstVectors& from) { Kokkos::deep_copy(ExecSpace(), to, from); }
 
+void NodeVectors::set_to_zero(const Vectors& vectors) { Kokkos::deep_copy(ExecSpace(), vectors, 0.0); }
+
+double NodeVectors::dot_product(const ConstVectors& a, const ConstVectors& b) {
+  return skein::dot_product<ExecSpace>(ExecSpace(), a, b);
+}
+
 double NodeVectors::root_mean_square(const ConstVectors& vectors) {
   return skein::root_mean_square<ExecSpace>(ExecSpace(), vectors);
 }
 
 Vectors NodeVectors::gather(const Vectors& vectors) { return vectors; }
+
+ConstVectors NodeVectors::gather_whole(const ConstVectors& vectors) { return vectors; }
 
 void NodeVectors::scatter(const ConstVectors& whole, const Vectors& vectors) {
   if (whole.data() != vectors.data()) Kokkos::deep_copy(ExecSpace(), vectors, whole);

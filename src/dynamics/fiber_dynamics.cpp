@@ -80,6 +80,12 @@ void FiberDynamics::multiply(const double time, const ConstVectors& position, co
                              const Vectors& result) {
   ++evaluations_;
   PartsTimer timer(times_parts_, seconds_);
+  if (has_parts(position)) {
+    SharedNodes& nodes = *physics_.shared_nodes;
+    const Sources sources = nodes.compute_force_changes(physics_, time, position, displacement, result, force_);
+    timer.begin_fluid();
+    return nodes.add_velocity(physics_, sources, result);
+  }
   Kokkos::deep_copy(ExecSpace(), result, 0.0);
   physics_.compute_force_changes(time, position, displacement, force_);
   timer.begin_fluid();
@@ -94,7 +100,7 @@ Linearization* FiberDynamics::linearization() {
         physics_.fibers, physics_.viscosity,
         [this](const double time, const ConstVectors& position, const ConstVectors& displacement,
                const Vectors& result) { multiply(time, position, displacement, result); },
-        physics_.symmetry);
+        [this](const ConstVectors& vectors) -> NodeVectors& { return vectors_of(vectors); }, physics_.symmetry);
   return linearization_.get();
 }
 
@@ -107,9 +113,13 @@ NodeVectors& FiberDynamics::vectors() {
   return whole_vectors();
 }
 
+NodeVectors& FiberDynamics::vectors_of(const ConstVectors& vectors) const {
+  return has_parts(vectors) ? *physics_.shared_nodes : whole_vectors();
+}
+
 /// Rank 0 seeks faults among all nodes: it has their positions since they were evaluated.
 ConstVectors FiberDynamics::all_of(const ConstVectors& position) const {
-  return has_parts(position) ? physics_.shared_nodes->gather_whole(position) : position;
+  return vectors_of(position).gather_whole(position);
 }
 
 void FiberDynamics::seek_fault(const ConstVectors& position) {

@@ -22,13 +22,14 @@ Vec3 normalize(const Vec3 v, const Vec3 otherwise) {
 }  // namespace
 
 FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const double viscosity, Product product,
-                                       std::shared_ptr<const NodeSymmetry> symmetry)
+                                       VectorsOf vectors_of, std::shared_ptr<const NodeSymmetry> symmetry)
     : fibers_(fibers),
       networks_(make_spring_networks(fibers)),
       viscosity_(viscosity),
       product_(std::move(product)),
+      vectors_of_(std::move(vectors_of)),
       symmetry_(std::move(symmetry)),
-      position_("skein::FiberLinearization::position", static_cast<std::size_t>(count_nodes(fibers))) {
+      n_nodes_(count_nodes(fibers)) {
   for (const SpringNetwork& network : networks_)
     bands_.push_back(std::make_unique<BlockBand>(network.n_sections, 3 * network.stencil.nodes_per_section,
                                                  near_sections + network.stencil.reach));
@@ -61,8 +62,11 @@ std::vector<FiberLinearization::Frame> FiberLinearization::make_frames(const std
 
 void FiberLinearization::set_position(const double time, const ConstVectors& position) {
   time_ = time;
-  Kokkos::deep_copy(ExecSpace(), position_, position);
-  frames_ = make_frames(to_host(position));
+  NodeVectors& nodes = vectors_of_(position);
+  if (position_.data() == nullptr || &vectors_of_(position_) != &nodes)
+    position_ = nodes.make("skein::FiberLinearization::position", n_nodes_);
+  nodes.copy(position_, position);
+  frames_ = make_frames(to_host(nodes.gather_whole(position)));
   update_turns();
 }
 
@@ -87,7 +91,7 @@ void FiberLinearization::multiply(const ConstVectors& v, const Vectors& result) 
 }
 
 bool FiberLinearization::factorize(const ConstVectors& position, const double scale) {
-  const std::vector<Vec3> list = to_host(position);
+  const std::vector<Vec3> list = to_host(vectors_of_(position).gather_whole(position));
   frames_at_factorization_.clear();
   for (std::size_t f = 0; f < fibers_.size(); ++f) {
     const SpringStencil& stencil = networks_[f].stencil;
@@ -114,7 +118,7 @@ bool FiberLinearization::factorize(const ConstVectors& position, const double sc
 
 // At the speed at which pairs are summed: about 16 operations a pair.
 double FiberLinearization::evaluations_for(const double operations) const {
-  const double n_nodes = static_cast<double>(position_.extent(0));
+  const double n_nodes = n_nodes_;
   const double gain = symmetry_ == nullptr ? 1.0 : symmetry_->orbits().gain();
   return operations * gain / (16.0 * n_nodes * n_nodes);
 }
@@ -140,8 +144,10 @@ double FiberLinearization::preconditioning_cost() const {
 
 void FiberLinearization::precondition(const ConstVectors& v, const Vectors& result) {
   SKEIN_REQUIRE(!turns_.empty(), "factorize and set_position come first");
-  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), v);
-  const auto out = Kokkos::create_mirror_view(result);
+  NodeVectors& nodes = vectors_of_(v);
+  const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), nodes.gather_whole(v));
+  const Vectors whole = nodes.make_room_for_whole(result);
+  const auto out = Kokkos::create_mirror_view(whole);
   std::vector<double> x;
   std::size_t section = 0;
   for (std::size_t f = 0; f < fibers_.size(); ++f) {
@@ -164,8 +170,9 @@ void FiberLinearization::precondition(const ConstVectors& v, const Vectors& resu
     }
     section += fiber.config.sections;
   }
-  Kokkos::deep_copy(ExecSpace(), result, out);
-  if (symmetry_ != nullptr) symmetry_->project(result);
+  Kokkos::deep_copy(ExecSpace(), whole, out);
+  if (symmetry_ != nullptr) symmetry_->project(whole);
+  nodes.scatter(whole, result);
   ExecSpace().fence();
 }
 

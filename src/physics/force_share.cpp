@@ -88,6 +88,7 @@ bool SharedForces::know(const ForceList& forces) const {
 bool SharedForces::compute(const ForceList& forces, const double time, const ConstVectors& position,
                            const ConstVectors& displacement, const Vectors& force) {
   link_.held = {};
+  link_.held_position = nullptr;
   if (!know(forces)) return false;
   order_.kind = displacement.is_allocated() ? SumOrder::Kind::compute_force_changes : SumOrder::Kind::compute_forces;
   order_.time = time;

@@ -33,7 +33,7 @@ struct ChunkShare {
     tail = end - last;
   }
   std::size_t n_single() const { return head + tail; }
-  std::size_t n_numbers() const { return n_chunks + 3 * n_single(); }
+  std::size_t n_numbers(const std::size_t n_arrays) const { return n_chunks + 3 * n_arrays * n_single(); }
 };
 
 void append_rows(const SeenRows& rows, const std::size_t first, const std::size_t n, std::vector<double>& numbers) {
@@ -95,25 +95,28 @@ void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& 
   received.take(0, from_rank_0.count[0]);
 }
 
-double add_up_squares(Communicator& ranks, const RankParts& owners, const Vectors& part, const RowAccess access) {
+double add_up_products(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& other,
+                       const RowAccess access) {
   const int at_once = choose_dot_chunk<ExecSpace>(static_cast<int>(owners.total()));
   const auto chunk_nodes = static_cast<std::size_t>(at_once);
+  const std::size_t n_arrays = part.data() == other.data() ? 1 : 2;
   std::vector<ChunkShare> shares;
   std::vector<std::size_t> counts;
   for (std::size_t rank = 0; rank < owners.count.size(); ++rank) {
     shares.emplace_back(owners, rank, chunk_nodes);
-    counts.push_back(shares.back().n_numbers());
+    counts.push_back(shares.back().n_numbers(n_arrays));
   }
   const ExecSpace space;
   const ChunkShare& own = shares[static_cast<std::size_t>(ranks.rank())];
   std::vector<double> numbers;
-  if (own.n_chunks > 0) {
-    const Vectors rows = rows_of(part, own.head, own.chunk_nodes);
-    numbers = dot_chunks<ExecSpace>(space, rows, rows, at_once);
+  if (own.n_chunks > 0)
+    numbers = dot_chunks<ExecSpace>(space, rows_of(part, own.head, own.chunk_nodes),
+                                    rows_of(other, own.head, own.chunk_nodes), at_once);
+  for (std::size_t array = 0; array < n_arrays; ++array) {
+    const SeenRows seen(array == 0 ? part : other, access, 0);
+    append_rows(seen, 0, own.head, numbers);
+    append_rows(seen, own.head + own.chunk_nodes, own.tail, numbers);
   }
-  const SeenRows seen(part, access, 0);
-  append_rows(seen, 0, own.head, numbers);
-  append_rows(seen, own.head + own.chunk_nodes, own.tail, numbers);
   const RankParts parts = RankParts::behind_each_other(std::move(counts));
   std::vector<double> all(ranks.rank() == 0 ? parts.total() : 0);
   ranks.gather(numbers.data(), parts, all.data());
@@ -122,17 +125,21 @@ double add_up_squares(Communicator& ranks, const RankParts& owners, const Vector
   // Nodes of chunks that are several ranks' come together here, so that the same kernel adds them up.
   std::size_t n_single = 0;
   for (const ChunkShare& share : shares) n_single += share.n_single();
-  const Vectors single("skein::add_up_squares::single", n_single);
-  const auto on_host = Kokkos::create_mirror_view(single);
-  std::size_t next = 0;
-  for (std::size_t rank = 0; rank < shares.size(); ++rank) {
-    const double* number = all.data() + parts.first[rank] + shares[rank].n_chunks;
-    for (std::size_t i = 0; i < shares[rank].n_single(); ++i, ++next)
-      for (int c = 0; c < 3; ++c) on_host(next, c) = *number++;
+  Vectors single[2];
+  for (std::size_t array = 0; array < n_arrays; ++array) {
+    single[array] = Vectors("skein::add_up_products::single", n_single);
+    const auto on_host = Kokkos::create_mirror_view(single[array]);
+    std::size_t next = 0;
+    for (std::size_t rank = 0; rank < shares.size(); ++rank) {
+      const double* number =
+          all.data() + parts.first[rank] + shares[rank].n_chunks + 3 * array * shares[rank].n_single();
+      for (std::size_t i = 0; i < shares[rank].n_single(); ++i, ++next)
+        for (int c = 0; c < 3; ++c) on_host(next, c) = *number++;
+    }
+    Kokkos::deep_copy(single[array], on_host);
   }
-  Kokkos::deep_copy(single, on_host);
   std::vector<double> of_single;
-  if (n_single > 0) of_single = dot_chunks<ExecSpace>(space, single, single, at_once);
+  if (n_single > 0) of_single = dot_chunks<ExecSpace>(space, single[0], single[n_arrays - 1], at_once);
   // Chunks in their order: a rank's own ones begin behind the one that its head ends.
   double total = 0.0;
   std::size_t n_seen = 0, n_added = 0;  // of single nodes, and of the chunks of such
@@ -161,6 +168,8 @@ void NodeParts::work(const PartWork& work) {
       return;
     case PartWork::Kind::copy:
       return Kokkos::deep_copy(ExecSpace(), parts_.at(work.result), parts_.at(work.source[0]));
+    case PartWork::Kind::set_to_zero:
+      return Kokkos::deep_copy(ExecSpace(), parts_.at(work.result), 0.0);
     case PartWork::Kind::combine: {
       const auto term = [&](const int i) { return Term<ExecSpace>{work.factor[i], parts_.at(work.source[i])}; };
       const Vectors& result = parts_.at(work.result);

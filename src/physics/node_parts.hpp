@@ -36,10 +36,10 @@ void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& p
 void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part,
                    RowAccess access = usual_row_access);
 
-/// The same of the squares of vectors on all nodes: their sum, in the order of dot_product of the whole array.
+/// The same of two arrays' dot product: with the bits of dot_product of the whole arrays.
 /// @returns it on rank 0, 0 on others
-double add_up_squares(Communicator& ranks, const RankParts& owners, const Vectors& part,
-                      RowAccess access = usual_row_access);
+double add_up_products(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& other,
+                       RowAccess access = usual_row_access);
 
 /// The parts of arrays that a rank other than 0 has, by the numbers that rank 0 gave them.
 class NodeParts {

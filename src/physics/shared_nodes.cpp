@@ -21,7 +21,7 @@ void OwnedNodes::drop_unused() {
 Vectors OwnedNodes::make(const std::string& label, const int n_nodes) {
   SKEIN_REQUIRE(static_cast<std::size_t>(n_nodes) == owners_.total(), "arrays are on all nodes of the scene");
   drop_unused();
-  const Part part{next_number_++, make_part(label, owners_, 0), {}};
+  const Part part{next_number_++, make_part(label, owners_, 0), {}, ++last_content_};
   link_.has_parts = true;
   link_.note(make_work(PartWork::Kind::make, part));
   parts_[part.own.data()] = part;
@@ -58,13 +58,26 @@ void OwnedNodes::copy(const Vectors& to, const ConstVectors& from) {
   note_change(target);
   look_for_whole(source);
   target.whole = source.whole;
+  target.content = source.content;
   link_.note(work);
 }
 
+void OwnedNodes::set_to_zero(const Vectors& vectors) {
+  Part& part = part_of(vectors);
+  NodeVectors::set_to_zero(vectors);
+  note_change(part);
+  link_.note(make_work(PartWork::Kind::set_to_zero, part));
+}
+
+double OwnedNodes::dot_product(const ConstVectors& a, const ConstVectors& b) {
+  const Part &left = part_of(a), &right = part_of(b);
+  order_.other_array = right.number;
+  send(SumOrder::Kind::dot_product_of_parts, left);
+  return add_up_products(link_.ranks, owners_, left.own, right.own);
+}
+
 double OwnedNodes::root_mean_square(const ConstVectors& vectors) {
-  const Part& part = part_of(vectors);
-  send(SumOrder::Kind::norm_of_parts, part);
-  return std::sqrt(add_up_squares(link_.ranks, owners_, part.own) / static_cast<double>(owners_.total()));
+  return std::sqrt(dot_product(vectors, vectors) / static_cast<double>(owners_.total()));
 }
 
 Vectors OwnedNodes::gather_part(Part& part) {
@@ -93,28 +106,60 @@ bool OwnedNodes::serve(const Physics& physics) const {
          physics.rigid_bodies.is_empty() && physics.symmetry == nullptr;
 }
 
+/// All ranks have the positions then. The order of an evaluation is filled in but for its kind.
+void OwnedNodes::take_positions(Part& at) {
+  order_.are_held = evaluated_ == at.content && link_.held_position == position_.data();
+  link_.held = {};
+  link_.own_forces = {};
+  if (order_.are_held) return send(order_.kind, at);
+  position_ = {};
+  evaluated_ = -1;
+  const Vectors all = find_room();
+  send(order_.kind, at);
+  link_.ranks.begin_work(RankWork::forces);
+  gather_parts_to_all(link_.ranks, owners_, at.own, all);
+  position_ = all;
+  evaluated_ = at.content;
+  link_.held_position = all.data();
+}
+
+Sources OwnedNodes::compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force) {
+  ForceShare::compute_own(link_.ranks, owners_, physics.forces, order_.time, position_, displacement, force);
+  link_.own_forces = {&owners_, forces_->scene(), force};
+  link_.held = {position_.data(), force.data(), position_.extent_int(0)};
+  return {position_, force, physics.blob, true};
+}
+
 Sources OwnedNodes::compute_forces(const Physics& physics, const double time, const ConstVectors& position,
                                    const Vectors& velocity, const Vectors& force) {
   SKEIN_REQUIRE(serve(physics), "physics of which an integrator was made for ranks has been changed");
   Part &at = part_of(position), &result = part_of(velocity);
   note_change(result);
-  link_.held = {};
-  link_.own_forces = {};
+  order_.kind = SumOrder::Kind::evaluate;
   order_.time = time;
   order_.velocity = result.number;
-  position_ = {};
-  evaluated_ = nullptr;
-  const Vectors all = find_room();
-  send(SumOrder::Kind::evaluate, at);
-  link_.ranks.begin_work(RankWork::forces);
-  gather_parts_to_all(link_.ranks, owners_, at.own, all);
-  position_ = all;
-  evaluated_ = at.own.data();
+  adds_to_flow_ = true;
+  take_positions(at);
   if (owners_.count[0] > 0) flow_.compute_velocity(time, own_rows(at.own), own_rows(velocity_));
-  ForceShare::compute_own(link_.ranks, owners_, physics.forces, time, position_, {}, force);
-  link_.own_forces = {&owners_, forces_->scene(), force};
-  link_.held = {position_.data(), force.data(), position_.extent_int(0)};
-  return {position_, force, physics.blob, true};
+  return compute_own_forces(physics, {}, force);
+}
+
+Sources OwnedNodes::compute_force_changes(const Physics& physics, const double time, const ConstVectors& position,
+                                          const ConstVectors& displacement, const Vectors& velocity,
+                                          const Vectors& force) {
+  SKEIN_REQUIRE(serve(physics), "physics of which an integrator was made for ranks has been changed");
+  Part &at = part_of(position), &result = part_of(velocity), &moved = part_of(displacement);
+  note_change(result);
+  order_.kind = SumOrder::Kind::evaluate_changes;
+  order_.time = time;
+  order_.velocity = result.number;
+  order_.displacement = moved.number;
+  adds_to_flow_ = false;
+  take_positions(at);
+  const Vectors all = find_room();
+  gather_parts_to_all(link_.ranks, owners_, moved.own, all);
+  Kokkos::deep_copy(ExecSpace(), own_rows(velocity_), 0.0);
+  return compute_own_forces(physics, all, force);
 }
 
 void OwnedNodes::add_velocity(const Physics& physics, const Sources& sources, const Vectors& velocity) {
@@ -122,7 +167,11 @@ void OwnedNodes::add_velocity(const Physics& physics, const Sources& sources, co
   const std::size_t n_own = owners_.count[0], n_others = owners_.total() - n_own;
   const auto complete = [&] {
     if (n_others == 0) return;
-    flow_.compute_velocity(order_.time, rows_of(position_, n_own, n_others), rows_of(velocity_, n_own, n_others));
+    const Vectors rows = rows_of(velocity_, n_own, n_others);
+    if (adds_to_flow_)
+      flow_.compute_velocity(order_.time, rows_of(position_, n_own, n_others), rows);
+    else
+      Kokkos::deep_copy(ExecSpace(), rows, 0.0);
   };
   Delivery delivery{owners_, forces_->scene(), result.number, velocity_, complete};
   struct Lent {

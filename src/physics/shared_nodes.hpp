@@ -7,6 +7,7 @@
 #include "node_parts.hpp"
 #include "sum_order.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -32,23 +33,29 @@ class OwnedNodes final : public SharedNodes {
   }
   void combine(const Vectors& result, std::initializer_list<Term<ExecSpace>> terms) override;
   void copy(const Vectors& to, const ConstVectors& from) override;
+  void set_to_zero(const Vectors& vectors) override;
+  double dot_product(const ConstVectors& a, const ConstVectors& b) override;
   double root_mean_square(const ConstVectors& vectors) override;
   Vectors gather(const Vectors& vectors) override { return gather_part(part_of(vectors)); }
   void scatter(const ConstVectors& whole, const Vectors& vectors) override;
-  Vectors make_room_for_whole(const Vectors&) override { return Vectors("skein::OwnedNodes::whole", owners_.total()); }
+  Vectors make_room_for_whole(const Vectors&) override { return find_room(); }
 
   bool serve(const Physics& physics) const override;
   ConstVectors gather_whole(const ConstVectors& vectors) override { return gather_part(part_of(vectors)); }
   bool have_made(const ConstVectors& vectors) const override { return parts_.count(vectors.data()) > 0; }
   Sources compute_forces(const Physics& physics, double time, const ConstVectors& position, const Vectors& velocity,
                          const Vectors& force) override;
+  Sources compute_force_changes(const Physics& physics, double time, const ConstVectors& position,
+                                const ConstVectors& displacement, const Vectors& velocity,
+                                const Vectors& force) override;
   void add_velocity(const Physics& physics, const Sources& sources, const Vectors& velocity) override;
 
  private:
   struct Part {
     int number = 0;
     Vectors own;
-    Vectors whole;  ///< of all ranks, as long as it is known here; never changed
+    Vectors whole;             ///< of all ranks, as long as it is known here; never changed
+    std::int64_t content = 0;  ///< arrays with the same number are equal
   };
 
   Part& part_of(const ConstVectors& vectors) {
@@ -59,10 +66,10 @@ class OwnedNodes final : public SharedNodes {
   Vectors own_rows(const Vectors& part) const { return skein::own_rows(part, owners_, 0); }
   void note_change(Part& part) {
     part.whole = {};
-    if (evaluated_ == part.own.data()) evaluated_ = nullptr;
+    part.content = ++last_content_;
   }
   void look_for_whole(Part& part) const {
-    if (part.whole.data() == nullptr && evaluated_ == part.own.data()) part.whole = position_;
+    if (part.whole.data() == nullptr && evaluated_ == part.content) part.whole = position_;
   }
   PartWork make_work(const PartWork::Kind kind, const Part& result) const {
     PartWork work;
@@ -79,6 +86,8 @@ class OwnedNodes final : public SharedNodes {
   }
   Vectors gather_part(Part& part);
   Vectors find_room();
+  void take_positions(Part& at);
+  Sources compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force);
   void drop_unused();
 
   TeamLink& link_;
@@ -88,10 +97,12 @@ class OwnedNodes final : public SharedNodes {
   std::unordered_map<const double*, Part> parts_;  ///< by where rank 0's rows are
   int next_number_ = 0;
   SumOrder order_;
-  std::vector<Vectors> rooms_;         ///< for whole arrays; those that nobody else holds are free
-  Vectors position_;                   ///< of all nodes, in the last evaluation
-  const double* evaluated_ = nullptr;  ///< the array that they are still those of
-  Vectors velocity_;                   ///< of all nodes; the memory of others' is only touched where they are looked at
+  std::vector<Vectors> rooms_;     ///< for whole arrays; those that nobody else holds are free
+  Vectors position_;               ///< of all nodes, in the last evaluation
+  std::int64_t last_content_ = 0;  ///< of arrays
+  std::int64_t evaluated_ = -1;    ///< that of the positions; -1: none was
+  bool adds_to_flow_ = true;       ///< in the last evaluation: else to zeros
+  Vectors velocity_;               ///< of all nodes; the memory of others' is only touched where they are looked at
 };
 
 }  // namespace skein

@@ -15,7 +15,7 @@ namespace skein {
 
 /// What each rank does with its parts of some arrays, of which rank 0 says the numbers.
 struct PartWork {
-  enum class Kind { make, drop, copy, combine, add_fmm_sum };
+  enum class Kind { make, drop, copy, set_to_zero, combine, add_fmm_sum };
   static constexpr int most_terms = 5;
   Kind kind = Kind::make;
   int scene = 0;  ///< whose nodes they are on
@@ -39,7 +39,8 @@ struct SumOrder {
     sample_fmm,
     work_on_parts,
     evaluate,
-    norm_of_parts,
+    evaluate_changes,
+    dot_product_of_parts,
     gather_parts,
     scatter_parts
   };
@@ -50,10 +51,11 @@ struct SumOrder {
   /// which of the run's
   int scene = 0;
   std::size_t n_bytes = 0;  ///< know_scene: of its text
-  double time = 0.0;        ///< compute_forces, compute_force_changes, evaluate
+  double time = 0.0;        ///< of all that compute forces or changes of them
 
   int n_sources = 0, n_targets = 0;  ///< add_direct, take_nodes, and those that compute forces
-  bool are_held = false;             ///< positions and forces of the sources are those of the order before
+  bool are_held = false;             ///< positions and forces of the sources are those of the order before;
+                                     ///< evaluate_changes: positions those of the last evaluation
   bool are_same_nodes = false;       ///< targets are the sources' own array
   bool has_one_blob = false;         ///< else they follow
   double blob = 0.0;
@@ -74,8 +76,10 @@ struct SumOrder {
   bool gathers_forces = false;  ///< first of all: those of the last `evaluate`, from their owners to all ranks
   int forces_scene = 0;         ///< of which scene that was
   bool is_delivered = false;  ///< add_direct, take_nodes, compute_fmm: to the ranks that own the targets, not to rank 0
-  int array = 0;              ///< evaluate: positions; norm_of_parts, gather_parts, scatter_parts
-  int velocity = 0;           ///< evaluate, and add_direct that is delivered: an array
+  int array = 0;         ///< evaluate, evaluate_changes: positions; dot_product_of_parts, gather_parts, scatter_parts
+  int other_array = 0;   ///< dot_product_of_parts
+  int displacement = 0;  ///< evaluate_changes: an array
+  int velocity = 0;      ///< evaluate, evaluate_changes, and add_direct that is delivered: an array
   int n_sampled = 0, n_chosen = 0;  ///< sample_fmm
 
   /// Before the order itself is obeyed.
@@ -136,6 +140,7 @@ struct TeamLink {
 
   Communicator& ranks;
   HeldNodes held;
+  const double* held_position = nullptr;  ///< the positions that the others have since they computed forces
   OwnForces own_forces;
   Delivery* delivery = nullptr;  ///< null: rank 0 has all velocities in the end
   bool has_parts = false;        ///< ranks have been told to make parts of arrays

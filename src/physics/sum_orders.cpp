@@ -83,6 +83,7 @@ void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const C
     link.send_gathering(order, sources.force);
   Communicator& ranks = link.ranks;
   if (!order.are_held) {
+    link.held_position = nullptr;
     send_vectors(ranks, sources.position);
     send_vectors(ranks, sources.force);
   }

@@ -81,9 +81,10 @@ class SumServer {
       case SumOrder::Kind::work_on_parts:
         return true;
       case SumOrder::Kind::evaluate:
+      case SumOrder::Kind::evaluate_changes:
         evaluate();
         return true;
-      case SumOrder::Kind::norm_of_parts:
+      case SumOrder::Kind::dot_product_of_parts:
       case SumOrder::Kind::gather_parts:
       case SumOrder::Kind::scatter_parts:
         move_parts(scenes_.at(order_.scene).parts);
@@ -115,22 +116,33 @@ class SumServer {
   }
   void move_parts(const NodeParts& parts) {
     const Vectors& part = parts[order_.array];
-    if (order_.kind == SumOrder::Kind::norm_of_parts)
-      add_up_squares(ranks_, parts.owners(), part);
+    if (order_.kind == SumOrder::Kind::dot_product_of_parts)
+      add_up_products(ranks_, parts.owners(), part, parts[order_.other_array]);
     else if (order_.kind == SumOrder::Kind::gather_parts)
       gather_parts(ranks_, parts.owners(), part, {});
     else
       scatter_parts(ranks_, parts.owners(), {}, part);
   }
+  static void make_room(Vectors& all, const std::size_t n_nodes) {
+    if (all.extent(0) != n_nodes) all = Vectors("skein::SumServer::all", n_nodes);
+  }
   void evaluate() {
     const auto& [share, parts] = scenes_.at(order_.scene);
-    for (Vectors* const all : {&nodes_.position, &nodes_.force})
-      if (all->extent(0) != share.nodes.total()) *all = Vectors("skein::SumServer::all", share.nodes.total());
+    make_room(nodes_.position, share.nodes.total());
+    make_room(nodes_.force, share.nodes.total());
     ranks_.begin_work(RankWork::forces);
-    gather_parts_to_all(ranks_, share.nodes, parts[order_.array], nodes_.position);
+    const bool are_changes = order_.kind == SumOrder::Kind::evaluate_changes;
+    if (!order_.are_held) gather_parts_to_all(ranks_, share.nodes, parts[order_.array], nodes_.position);
     const Vectors velocity = parts.rows(order_.velocity);
-    if (velocity.extent(0) > 0) share.flow->compute_velocity(order_.time, parts.rows(order_.array), velocity);
-    ForceShare::compute_own(ranks_, share.nodes, share.forces, order_.time, nodes_.position, {}, nodes_.force);
+    if (are_changes) {
+      make_room(nodes_.displacement, share.nodes.total());
+      gather_parts_to_all(ranks_, share.nodes, parts[order_.displacement], nodes_.displacement);
+      Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
+    } else if (velocity.extent(0) > 0) {
+      share.flow->compute_velocity(order_.time, parts.rows(order_.array), velocity);
+    }
+    ForceShare::compute_own(ranks_, share.nodes, share.forces, order_.time, nodes_.position,
+                            are_changes ? ConstVectors(nodes_.displacement) : ConstVectors(), nodes_.force);
   }
   void add_direct() {
     const NodeParts* const parts = order_.is_delivered ? &scenes_.at(order_.scene).parts : nullptr;
@@ -147,8 +159,7 @@ class SumServer {
     const bool are_changes = order_.kind == SumOrder::Kind::compute_force_changes;
     receive_vectors(ranks_, order_.n_sources, nodes_.position);
     if (are_changes) receive_vectors(ranks_, order_.n_sources, nodes_.displacement);
-    if (nodes_.force.extent_int(0) != order_.n_sources)
-      nodes_.force = Vectors("skein::SumServer::force", static_cast<std::size_t>(order_.n_sources));
+    make_room(nodes_.force, static_cast<std::size_t>(order_.n_sources));
     ForceShare::compute(ranks_, share.nodes, share.forces, order_.time, nodes_.position,
                         are_changes ? ConstVectors(nodes_.displacement) : ConstVectors(), nodes_.force);
   }

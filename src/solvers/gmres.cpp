@@ -1,42 +1,40 @@
-#include <skein/arrays/combination.hpp>
 #include <skein/solvers/gmres.hpp>
 
 #include <cmath>
 
 namespace skein {
 
-Gmres::Gmres(const int n_nodes, const int max_iterations)
+Gmres::Gmres(const int n_nodes, const int max_iterations, NodeVectors& vectors)
     : max_iterations_(max_iterations),
       n_nodes_(n_nodes),
-      product_("skein::Gmres::product", static_cast<std::size_t>(n_nodes)) {}
+      vectors_(vectors),
+      product_(vectors.make("skein::Gmres::product", n_nodes)) {}
 
 void Gmres::apply(LinearOperator& a, const double scale, const ConstVectors& v, const Vectors& result) {
   a.precondition(v, product_);
   a.multiply(product_, result);
-  combine<ExecSpace>(ExecSpace(), result, {1.0, product_}, {-scale, result});
+  vectors_.combine(result, {{1.0, product_}, {-scale, result}});
 }
 
 Gmres::Result Gmres::solve(LinearOperator& a, const double scale, const ConstVectors& b, const Vectors& x,
                            const double tolerance) {
-  const ExecSpace space;
   const double root_n = std::sqrt(static_cast<double>(n_nodes_));
   const auto basis = [this](const int i) {
-    if (static_cast<int>(basis_.size()) <= i)
-      basis_.emplace_back("skein::Gmres::basis", static_cast<std::size_t>(n_nodes_));
+    if (static_cast<int>(basis_.size()) <= i) basis_.push_back(vectors_.make("skein::Gmres::basis", n_nodes_));
     return basis_[i];
   };
   Result result;
   // The first residual: a guess of zero needs no product.
   const Vectors first = basis(0);
-  if (dot_product<ExecSpace>(space, x, x) == 0.0) {
-    Kokkos::deep_copy(space, first, b);
+  if (vectors_.dot_product(x, x) == 0.0) {
+    vectors_.copy(first, b);
   } else {
     a.multiply(x, first);
     ++result.iterations;
-    combine<ExecSpace>(space, first, {scale, first}, {-1.0, x});
-    combine<ExecSpace>(space, first, {1.0, first}, {1.0, b});
+    vectors_.combine(first, {{scale, first}, {-1.0, x}});
+    vectors_.combine(first, {{1.0, first}, {1.0, b}});
   }
-  const double size = std::sqrt(dot_product<ExecSpace>(space, first, first));
+  const double size = std::sqrt(vectors_.dot_product(first, first));
   result.residual = size / root_n;
   if (!std::isfinite(size)) return result;
   result.converged = result.residual <= tolerance;
@@ -45,7 +43,7 @@ Gmres::Result Gmres::solve(LinearOperator& a, const double scale, const ConstVec
   sine_.clear();
   right_.assign(1, size);
   if (size == 0.0) return result;
-  combine<ExecSpace>(space, first, {1.0 / size, first}, {0.0, first});
+  vectors_.combine(first, {{1.0 / size, first}, {0.0, first}});
 
   while (!result.converged && static_cast<int>(column_.size()) < max_iterations_) {
     const int k = static_cast<int>(column_.size());
@@ -54,10 +52,10 @@ Gmres::Result Gmres::solve(LinearOperator& a, const double scale, const ConstVec
     ++result.iterations;
     std::vector<double> column(k + 2);
     for (int i = 0; i <= k; ++i) {
-      column[i] = dot_product<ExecSpace>(space, basis(i), next);
-      combine<ExecSpace>(space, next, {1.0, next}, {-column[i], basis(i)});
+      column[i] = vectors_.dot_product(basis(i), next);
+      vectors_.combine(next, {{1.0, next}, {-column[i], basis(i)}});
     }
-    const double length = std::sqrt(dot_product<ExecSpace>(space, next, next));
+    const double length = std::sqrt(vectors_.dot_product(next, next));
     if (!std::isfinite(length)) {
       result.residual = length;
       return result;
@@ -78,7 +76,7 @@ Gmres::Result Gmres::solve(LinearOperator& a, const double scale, const ConstVec
     right_[k] *= cosine_[k];
     result.residual = std::abs(right_[k + 1]) / root_n;
     result.converged = result.residual <= tolerance;
-    if (length > 0.0) combine<ExecSpace>(space, next, {1.0 / length, next}, {0.0, next});
+    if (length > 0.0) vectors_.combine(next, {{1.0 / length, next}, {0.0, next}});
   }
   add_solution(a, x);
   return result;
@@ -102,12 +100,11 @@ void Gmres::add_solution(LinearOperator& a, const Vectors& x) {
     residual[i] = cosine_[i] * above - sine_[i] * below;
     residual[i + 1] = sine_[i] * above + cosine_[i] * below;
   }
-  const ExecSpace space;
-  combine<ExecSpace>(space, product_, {factor[0] + residual[0], basis_[0]}, {0.0, basis_[0]});
+  vectors_.combine(product_, {{factor[0] + residual[0], basis_[0]}, {0.0, basis_[0]}});
   for (int i = 1; i <= n_columns; ++i)
-    combine<ExecSpace>(space, product_, {1.0, product_}, {factor[i] + residual[i], basis_[i]});
+    vectors_.combine(product_, {{1.0, product_}, {factor[i] + residual[i], basis_[i]}});
   a.precondition(product_, product_);
-  combine<ExecSpace>(space, x, {1.0, x}, {1.0, product_});
+  vectors_.combine(x, {{1.0, x}, {1.0, product_}});
 }
 
 }  // namespace skein

@@ -1,4 +1,3 @@
-#include <skein/arrays/combination.hpp>
 #include <skein/core/error.hpp>
 #include <skein/solvers/tr_bdf2.hpp>
 
@@ -35,9 +34,9 @@ Linearization& get_linearization(RightHandSide& rhs) {
 }  // namespace
 
 TrBdf2::TrBdf2(RightHandSide& rhs, const ControlOptions& options, const int n_nodes)
-    : ControlledIntegrator(rhs, options, "TR-BDF2", 2.0, n_nodes, whole_vectors()),
+    : ControlledIntegrator(rhs, options, "TR-BDF2", 2.0, n_nodes, rhs.vectors()),
       linearization_(get_linearization(rhs)),
-      gmres_(n_nodes, max_iterations),
+      gmres_(n_nodes, max_iterations, rhs.vectors()),
       factorized_position_(make_vectors("factorized_position")),
       acceleration_(make_vectors("acceleration")),
       next_acceleration_(make_vectors("next_acceleration")),
@@ -67,7 +66,7 @@ void TrBdf2::update_preconditioner(const double scale) {
   const double ratio = preconditioner_.scale > 0.0 ? scale / preconditioner_.scale : 0.0;
   if (ratio > max_scale_ratio || ratio * max_scale_ratio < 1.0 ||
       preconditioner_.excess > linearization_.factorization_cost()) {
-    Kokkos::deep_copy(ExecSpace(), factorized_position_, start_);
+    vectors_.copy(factorized_position_, start_);
     preconditioner_ = {scale, -1.0, 0.0, preconditioner_.number + 1};
     factorize(scale);
   } else if (number_made_ != preconditioner_.number) {  // after a restart, or a step that was given up
@@ -84,35 +83,34 @@ double TrBdf2::stage_tolerance(const double dt) const {
 
 std::string TrBdf2::solve_stage(const double time, const double dt, const ConstVectors& constant,
                                 const Vectors& stage_velocity) {
-  const ExecSpace space;
   const double scale = diagonal * dt;
   const double tolerance = stage_tolerance(dt);
   double last_size = 0.0;
   for (int step = 0; step < max_newton_steps; ++step) {
     ++newton_steps_;
-    linearization_.set_position(inside_piece(time), end_);
     compute_velocity(time, end_, stage_velocity);
-    combine<ExecSpace>(space, scratch_, {1.0, constant}, {-1.0, end_});
-    combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {scale, stage_velocity});
-    Kokkos::deep_copy(space, correction_, 0.0);
+    linearization_.set_position(inside_piece(time), end_);
+    vectors_.combine(scratch_, {{1.0, constant}, {-1.0, end_}});
+    vectors_.combine(scratch_, {{1.0, scratch_}, {scale, stage_velocity}});
+    vectors_.set_to_zero(correction_);
     const Gmres::Result solved = gmres_.solve(linearization_, scale, scratch_, correction_, solver_share * tolerance);
     iterations_ += solved.iterations;
-    combine<ExecSpace>(space, end_, {1.0, end_}, {1.0, correction_});
+    vectors_.combine(end_, {{1.0, end_}, {1.0, correction_}});
     if (!std::isfinite(solved.residual)) {
       // Leave what a search for the node to blame would find.
-      combine<ExecSpace>(space, end_, {1.0, end_}, {1e-300, stage_velocity});
+      vectors_.combine(end_, {{1.0, end_}, {1e-300, stage_velocity}});
       return "GMRES met numbers that are not finite";
     }
     if (!solved.converged)
       return fmt::format("GMRES stalled after {} iterations at {:.3g} of its tolerance", solved.iterations,
                          solved.residual / (solver_share * tolerance));
-    const double size = root_mean_square<ExecSpace>(space, correction_);
+    const double size = vectors_.root_mean_square(correction_);
     // What the matrix lacks is as slow as the flow, and it changes over distances like the node spacing: that is how
     // the error of the first step is guessed.
     const double bend = options_.detail_scale > 0.0 ? newton_curvature * size / options_.detail_scale : 0.0;
     const double rate = step == 0 ? std::min(0.5, scale / options_.time_scale + bend) : size / last_size;
     if (size == 0.0 || std::min(rate, 1.0) * size <= tolerance) {
-      combine<ExecSpace>(space, stage_velocity, {1.0 / scale, end_}, {-1.0 / scale, constant});
+      vectors_.combine(stage_velocity, {{1.0 / scale, end_}, {-1.0 / scale, constant}});
       return {};
     }
     if (step > 0 && rate > 2.0) return fmt::format("Newton's method does not converge (rate {:.2g})", rate);
@@ -122,15 +120,14 @@ std::string TrBdf2::solve_stage(const double time, const double dt, const ConstV
 }
 
 ControlledIntegrator::Attempt TrBdf2::attempt(const double time, const double dt) {
-  const ExecSpace space;
   update_preconditioner(diagonal * dt);
   iterations_ = newton_steps_ = 0;
   Attempt result;
   const auto count = [&] { result.stages = iterations_ + newton_steps_; };
 
-  combine<ExecSpace>(space, constant_, {1.0, start_}, {diagonal * dt, start_velocity_});
-  combine<ExecSpace>(space, end_, {1.0, start_}, {gamma * dt, start_velocity_});
-  combine<ExecSpace>(space, end_, {1.0, end_}, {0.5 * gamma * gamma * dt * dt, acceleration_});
+  vectors_.combine(constant_, {{1.0, start_}, {diagonal * dt, start_velocity_}});
+  vectors_.combine(end_, {{1.0, start_}, {gamma * dt, start_velocity_}});
+  vectors_.combine(end_, {{1.0, end_}, {0.5 * gamma * gamma * dt * dt, acceleration_}});
   result.failure = solve_stage(time + gamma * dt, dt, constant_, middle_velocity_);
   count();
   if (!result.failure.empty()) {
@@ -140,10 +137,10 @@ ControlledIntegrator::Attempt TrBdf2::attempt(const double time, const double dt
 
   // From here on, the curve through both velocities known.
   const double curve = 0.5 * dt / gamma;
-  combine<ExecSpace>(space, end_, {1.0, start_}, {dt, start_velocity_});
-  combine<ExecSpace>(space, end_, {1.0, end_}, {curve, middle_velocity_}, {-curve, start_velocity_}, {0.0, start_});
-  combine<ExecSpace>(space, constant_, {1.0, start_}, {side_weight * dt, start_velocity_});
-  combine<ExecSpace>(space, constant_, {1.0, constant_}, {side_weight * dt, middle_velocity_});
+  vectors_.combine(end_, {{1.0, start_}, {dt, start_velocity_}});
+  vectors_.combine(end_, {{1.0, end_}, {curve, middle_velocity_}, {-curve, start_velocity_}, {0.0, start_}});
+  vectors_.combine(constant_, {{1.0, start_}, {side_weight * dt, start_velocity_}});
+  vectors_.combine(constant_, {{1.0, constant_}, {side_weight * dt, middle_velocity_}});
   result.failure = solve_stage(time + dt, dt, constant_, end_velocity_);
   count();
   if (!result.failure.empty()) {
@@ -152,16 +149,15 @@ ControlledIntegrator::Attempt TrBdf2::attempt(const double time, const double dt
   }
 
   // The difference to the third-order formula with the same velocities, freed of stiff modes by the preconditioner.
-  combine<ExecSpace>(space, scratch_, {(4.0 * side_weight - 1.0) / 3.0 * dt, start_velocity_},
-                     {-dt / 3.0, middle_velocity_});
-  combine<ExecSpace>(space, scratch_, {1.0, scratch_}, {2.0 / 3.0 * diagonal * dt, end_velocity_});
+  vectors_.combine(scratch_, {{(4.0 * side_weight - 1.0) / 3.0 * dt, start_velocity_}, {-dt / 3.0, middle_velocity_}});
+  vectors_.combine(scratch_, {{1.0, scratch_}, {2.0 / 3.0 * diagonal * dt, end_velocity_}});
   linearization_.precondition(scratch_, scratch_);
   // Not below what the stages' equations were left with, or the controller would take luck for a trend.
   const double error = measure_error(scratch_, dt);
   result.error = std::max(error, least_error);
   if (error > 0.0) result.excess = result.error / error;
 
-  combine<ExecSpace>(space, next_acceleration_, {1.0 / dt, end_velocity_}, {-1.0 / dt, start_velocity_});
+  vectors_.combine(next_acceleration_, {{1.0 / dt, end_velocity_}, {-1.0 / dt, start_velocity_}});
   is_next_ready_ = true;
   Preconditioner& made = preconditioner_;
   if (made.least_iterations < 0.0 || iterations_ < made.least_iterations) made.least_iterations = iterations_;
@@ -175,8 +171,8 @@ void TrBdf2::visit_memory(MemoryVisitor& visitor) {
   visitor.number("TR-BDF2.least_iterations", preconditioner_.least_iterations);
   visitor.number("TR-BDF2.excess_iterations", preconditioner_.excess);
   visitor.integer("TR-BDF2.factorizations", preconditioner_.number);
-  visitor.vectors("TR-BDF2.factorized_position", factorized_position_);
-  visitor.vectors("TR-BDF2.acceleration", is_next_ready_ ? next_acceleration_ : acceleration_);
+  visitor.node_vectors("TR-BDF2.factorized_position", vectors_, factorized_position_);
+  visitor.node_vectors("TR-BDF2.acceleration", vectors_, is_next_ready_ ? next_acceleration_ : acceleration_);
 }
 
 std::string TrBdf2::describe() const {

@@ -51,6 +51,8 @@ TEST(OwnedNodes, AreCombinedAndMeasuredAsWholeArraysAre) {
       const double of_parts = made.parts().root_mean_square(part[0]);
       EXPECT_TRUE(is_same(of_parts, whole_vectors().root_mean_square(whole[0]))) << what << ", " << sections;
       EXPECT_GT(of_parts, 0.1);
+      EXPECT_TRUE(is_same(made.parts().dot_product(part[0], part[1]), whole_vectors().dot_product(whole[0], whole[1])))
+          << what << ", " << sections;
     };
     compare("as they were");
     const auto combine = [&](NodeVectors& nodes, const std::vector<Vectors>& v) {
@@ -65,6 +67,9 @@ TEST(OwnedNodes, AreCombinedAndMeasuredAsWholeArraysAre) {
       combine(whole_vectors(), whole);
     }
     compare("combined");
+    made.parts().set_to_zero(part[3]);
+    EXPECT_EQ(made.parts().dot_product(part[3], part[3]), 0.0);
+    EXPECT_TRUE(is_same(made.whole_of(part[3]), Nodes(static_cast<std::size_t>(made.n_nodes), Vec3{})));
   }
 }
 
@@ -162,10 +167,10 @@ class OwnedSteps : public ::testing::TestWithParam<TimeMethod> {
 };
 
 TEST_P(OwnedSteps, HaveTheBitsOfOneProcess) {
-  Case made(scene());
-  WholeDynamics whole_dynamics(made.dynamics);
+  Case made(scene()), other(scene());
+  WholeDynamics whole_dynamics(other.dynamics);
   const auto parts = make_integrator(scene(), made.physics, made.dynamics);
-  const auto whole = make_integrator(scene(), made.physics, whole_dynamics);
+  const auto whole = make_integrator(scene(), other.physics, whole_dynamics);
   const Nodes start = made.physics.make_start_nodes(1);
   State a{0.0, 0, to_device("a", start)}, b{0.0, 0, to_device("b", start)};
   const Vectors at_a("at_a", start.size()), at_b("at_b", start.size());
@@ -214,8 +219,9 @@ TEST_P(OwnedSteps, ThatAreGivenUpLeaveWhatWas) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Explicit, OwnedSteps,
-                         ::testing::Values(TimeMethod::rkc2, TimeMethod::bs3, TimeMethod::rk4, TimeMethod::euler));
+INSTANTIATE_TEST_SUITE_P(Methods, OwnedSteps,
+                         ::testing::Values(TimeMethod::rkc2, TimeMethod::trbdf2, TimeMethod::bs3, TimeMethod::rk4,
+                                           TimeMethod::euler));
 
 TEST(OwnedNodes, AreNotTakenWherePhysicsIsNotTheScenes) {
   Case made(make_scene(19));

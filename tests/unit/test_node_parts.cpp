@@ -156,19 +156,29 @@ TEST_P(NodePartsTest, AreScattered) {
   });
 }
 
-TEST_P(NodePartsTest, HaveTheNormOfTheWhole) {
+TEST_P(NodePartsTest, HaveTheDotProductsOfTheWhole) {
   for (const auto& count : counts) {
     const RankParts owners = RankParts::behind_each_other(count);
-    const Nodes all = make_nodes(owners.total(), 3);
-    const Vectors whole = to_device("whole", all);
+    const Nodes all = make_nodes(owners.total(), 3), others = make_nodes(owners.total(), 4);
+    const Vectors whole = to_device("whole", all), other = to_device("other", others);
     LastRankIsZero ranks(static_cast<int>(count.size()));
-    double sum = 0.0;
+    double squares = 0.0;
     for (int rank = ranks.size(); rank-- > 0;) {
       ranks.be(rank);
-      sum = add_up_squares(ranks, owners, part_of(all, owners, rank), GetParam());
+      const Vectors part = part_of(all, owners, rank);
+      squares = add_up_products(ranks, owners, part, part, GetParam());
     }
-    EXPECT_TRUE(is_same(sum, dot_product<ExecSpace>(ExecSpace(), whole, whole))) << count.size() << " ranks";
-    EXPECT_GT(sum, 1.0);
+    EXPECT_TRUE(is_same(squares, dot_product<ExecSpace>(ExecSpace(), whole, whole))) << count.size() << " ranks";
+    EXPECT_GT(squares, 1.0);
+    LastRankIsZero ranks_again(static_cast<int>(count.size()));
+    double products = 0.0;
+    for (int rank = ranks.size(); rank-- > 0;) {
+      ranks_again.be(rank);
+      products =
+          add_up_products(ranks_again, owners, part_of(all, owners, rank), part_of(others, owners, rank), GetParam());
+    }
+    EXPECT_TRUE(is_same(products, dot_product<ExecSpace>(ExecSpace(), whole, other))) << count.size() << " ranks";
+    EXPECT_LT(std::abs(products), squares) << "of vectors that have nothing to do with each other";
   }
 }
 

@@ -23,13 +23,16 @@ class NodeVectors {
   /// result = the sum of two, four or five terms, in their order. `result` may be one of them.
   virtual void combine(const Vectors& result, std::initializer_list<Term<ExecSpace>> terms);
   virtual void copy(const Vectors& to, const ConstVectors& from);
+  virtual void set_to_zero(const Vectors& vectors);
 
-  /// Over all nodes, of the vectors' lengths. Waits for the device.
+  /// Over all nodes, in the order of skein::dot_product. They wait for the device.
+  virtual double dot_product(const ConstVectors& a, const ConstVectors& b);
   virtual double root_mean_square(const ConstVectors& vectors);
 
   /// The whole of an array, not to be changed: it may be the array itself, or serve later calls.
   /// Where ranks own nodes it is not asked for again as long as nothing changes the array.
   virtual Vectors gather(const Vectors& vectors);
+  virtual ConstVectors gather_whole(const ConstVectors& vectors);
 
   /// Overwrites an array. @param whole  [n_nodes, 3]
   virtual void scatter(const ConstVectors& whole, const Vectors& vectors);

@@ -59,6 +59,7 @@ class FiberDynamics final : public RightHandSide {
  private:
   void multiply(double time, const ConstVectors& position, const ConstVectors& displacement, const Vectors& result);
   bool has_parts(const ConstVectors& vectors) const;
+  NodeVectors& vectors_of(const ConstVectors& vectors) const;
   ConstVectors all_of(const ConstVectors& position) const;
   std::string describe_fault(const ConstVectors& position, int node) const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/arrays/node_vectors.hpp>
 #include <skein/fibers/fiber.hpp>
 #include <skein/fibers/spring_network.hpp>
 #include <skein/physics/node_symmetry.hpp>
@@ -22,8 +23,11 @@ class FiberLinearization final : public Linearization {
   using Product = std::function<void(double time, const ConstVectors& position, const ConstVectors& displacement,
                                      const Vectors& result)>;
 
+  /// What has made an array that the linearization is given.
+  using VectorsOf = std::function<NodeVectors&(const ConstVectors& vectors)>;
+
   /// @param symmetry  that products keep, and so what the preconditioner makes of them; null: none
-  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product,
+  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product, VectorsOf vectors_of,
                      std::shared_ptr<const NodeSymmetry> symmetry);
   ~FiberLinearization() override;
 
@@ -48,7 +52,9 @@ class FiberLinearization final : public Linearization {
   std::vector<SpringNetwork> networks_;
   double viscosity_;
   Product product_;
+  VectorsOf vectors_of_;
   std::shared_ptr<const NodeSymmetry> symmetry_;
+  int n_nodes_;
   double time_ = 0.0;
   Vectors position_;
   std::vector<Frame> frames_, frames_at_factorization_;  ///< [n_sections]

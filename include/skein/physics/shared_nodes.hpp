@@ -19,16 +19,18 @@ class SharedNodes : public NodeVectors {
   /// True of arrays that were made here.
   virtual bool have_made(const ConstVectors& vectors) const = 0;
 
-  /// Of an array that was made here, that of all nodes; not to be changed.
-  virtual ConstVectors gather_whole(const ConstVectors& vectors) = 0;
-
   /// Overwrites velocity with the flow at positions, both made here.
   /// @param force  [n_nodes, 3], overwritten with the forces on own nodes: of all only after SumTeam::complete_forces
   /// @returns them with all nodes' positions, which all ranks have then
   virtual Sources compute_forces(const Physics& physics, double time, const ConstVectors& position,
                                  const Vectors& velocity, const Vectors& force) = 0;
 
-  /// velocity += what the sources do. @param sources, velocity  of compute_forces, just before
+  /// The same of the change of forces with a displacement of nodes, made here, too; velocity is overwritten with zeros.
+  virtual Sources compute_force_changes(const Physics& physics, double time, const ConstVectors& position,
+                                        const ConstVectors& displacement, const Vectors& velocity,
+                                        const Vectors& force) = 0;
+
+  /// velocity += what the sources do. @param sources, velocity  of one of the two, just before
   virtual void add_velocity(const Physics& physics, const Sources& sources, const Vectors& velocity) = 0;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <skein/arrays/node_vectors.hpp>
 #include <skein/solvers/linear_operator.hpp>
 
 #include <vector>
@@ -12,7 +13,8 @@ namespace skein {
 /// Source: Saad, Schultz, SIAM J. Sci. Stat. Comput. 7, 856 (1986).
 class Gmres {
  public:
-  Gmres(int n_nodes, int max_iterations);
+  /// @param vectors  what it works with, and what `solve` is given was made by; must outlive the object
+  Gmres(int n_nodes, int max_iterations, NodeVectors& vectors = whole_vectors());
 
   struct Result {
     int iterations = 0;
@@ -34,6 +36,7 @@ class Gmres {
   std::vector<std::vector<double>> column_;  ///< of the triangular matrix
   std::vector<double> cosine_, sine_, right_;
   int n_nodes_;
+  NodeVectors& vectors_;
   Vectors product_;
 };
 

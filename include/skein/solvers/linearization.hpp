@@ -7,7 +7,7 @@
 namespace skein {
 
 /// The stiff part A of d velocity / d position, for linearly implicit integrators: what is slow may be missing from it.
-/// One call at a time.
+/// One call at a time, with arrays of the right-hand side's vectors() or with whole ones, but not both in one.
 class Linearization : public LinearOperator {
  public:
   /// From now on, A is that of these positions, [n_nodes, 3], at this time.
