@@ -97,7 +97,7 @@ Linearization* FiberDynamics::linearization() {
   if (!physics_.rigid_bodies.is_empty()) return nullptr;
   if (linearization_ == nullptr)
     linearization_ = std::make_unique<FiberLinearization>(
-        physics_.fibers, physics_.viscosity,
+        physics_.fibers, physics_.viscosity, physics_.relative_sum_cost(),
         [this](const double time, const ConstVectors& position, const ConstVectors& displacement,
                const Vectors& result) { multiply(time, position, displacement, result); },
         [this](const ConstVectors& vectors) -> NodeVectors& { return vectors_of(vectors); }, physics_.symmetry);

@@ -13,6 +13,9 @@ namespace skein {
 namespace {
 
 constexpr int near_sections = 5;  // wider bands save iterations, but cost more than those (N_f = 80 and 113)
+// At the speed at which pairs are summed.
+constexpr double pair_operations = 16.0;
+constexpr double spring_operations = 50.0;
 
 Vec3 normalize(const Vec3 v, const Vec3 otherwise) {
   const double length = norm(v);
@@ -21,15 +24,18 @@ Vec3 normalize(const Vec3 v, const Vec3 otherwise) {
 
 }  // namespace
 
-FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const double viscosity, Product product,
-                                       VectorsOf vectors_of, std::shared_ptr<const NodeSymmetry> symmetry)
+FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const double viscosity,
+                                       const double relative_sum_cost, Product product, VectorsOf vectors_of,
+                                       std::shared_ptr<const NodeSymmetry> symmetry)
     : fibers_(fibers),
       networks_(make_spring_networks(fibers)),
       viscosity_(viscosity),
       product_(std::move(product)),
       vectors_of_(std::move(vectors_of)),
       symmetry_(std::move(symmetry)),
-      n_nodes_(count_nodes(fibers)) {
+      n_nodes_(count_nodes(fibers)),
+      evaluation_operations_(pair_operations * n_nodes_ * n_nodes_ * relative_sum_cost +
+                             spring_operations * static_cast<double>(count_springs(fibers))) {
   for (const SpringNetwork& network : networks_)
     bands_.push_back(std::make_unique<BlockBand>(network.n_sections, 3 * network.stencil.nodes_per_section,
                                                  near_sections + network.stencil.reach));
@@ -114,13 +120,6 @@ bool FiberLinearization::factorize(const ConstVectors& position, const double sc
   frames_at_factorization_ = make_frames(list);
   update_turns();
   return true;
-}
-
-// At the speed at which pairs are summed: about 16 operations a pair.
-double FiberLinearization::evaluations_for(const double operations) const {
-  const double n_nodes = n_nodes_;
-  const double gain = symmetry_ == nullptr ? 1.0 : symmetry_->orbits().gain();
-  return operations * gain / (16.0 * n_nodes * n_nodes);
 }
 
 double FiberLinearization::factorization_cost() const {

@@ -1,3 +1,5 @@
+#include <skein/fmm/fmm_cost.hpp>
+
 #include "fmm/essential_tree.hpp"
 #include "fmm/fmm_operator_set.hpp"
 #include "fmm/tree_fit.hpp"

@@ -1,6 +1,7 @@
 #include "fmm_choices.hpp"
 
 #include <skein/core/error.hpp>
+#include <skein/fmm/fmm_cost.hpp>
 
 #include "fmm/blob_floor.hpp"
 #include "fmm/fmm_paths.hpp"

@@ -239,33 +239,4 @@ std::string describe_fmm_plan(const FmmOptions& options, const FmmPlan& plan) {
   return text + fmt::format(", {:g} allowed", options.tolerance);
 }
 
-double estimate_nanoseconds(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric, const KernelPath path) {
-  const MachineRates& rates = machine_rates(path);
-  const double near_pair = (is_symmetric ? rates.symmetric_near_pair : rates.near_pair).of(plan.near_in_single);
-  const double n_surface = 6.0 * (plan.order - 1) * (plan.order - 1) + 2.0;
-  const double rank = plan.rank;
-  const double n_nodes = work.n_sources + work.n_targets;
-  // Of the tail a node costs about a surface point for each polynomial, and transfers hardly anything.
-  const double degree = plan.tail_degree;
-  const double n_polynomials = plan.tail_degree > 0 ? (degree + 1.0) * (degree + 2.0) * (degree + 3.0) / 6.0 : 0.0;
-  return near_pair * work.near_pairs +
-         rates.surface_pair.of(plan.far_in_single) * (n_surface + n_polynomials) * n_nodes +
-         8.0 * rates.product.of(plan.far_in_single) *
-             (rank * rank * (rates.transfer_work * work.far_pairs + 2.0 * work.n_boxes) +
-              (2.0 * rank * n_surface + 4.5 * n_polynomials * n_polynomials) * work.n_boxes) +
-         rates.node * n_nodes;
-}
-
-double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric,
-                              const FmmOptions& options) {
-  const MachineRates& rates = machine_rates(options.path);
-  const double fmm = estimate_nanoseconds(work, plan, is_symmetric, options.path) + rates.tree;
-  const double n_pairs = work.n_sources * work.n_targets;
-  const Precision precision = options.precision == Precision::automatic
-                                  ? choose_direct_precision(rates, n_pairs, options.tolerance)
-                                  : options.precision;
-  const RateByPrecision& pair = is_symmetric ? rates.symmetric_direct_pair : rates.direct_pair;
-  return fmm / (rates.direct_sum + pair.of(precision == Precision::in_single) * n_pairs);
-}
-
 }  // namespace skein

@@ -1,5 +1,7 @@
 #include "fmm/rank_shares.hpp"
 
+#include <skein/fmm/fmm_cost.hpp>
+
 #include "fmm/fmm_operator_set.hpp"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "fmm/team_exchange.hpp"
 
+#include <skein/fmm/fmm_cost.hpp>
+
 #include "fmm/tree_tasks.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/sum_team.hpp>
@@ -68,6 +69,15 @@ void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& ta
   if (!by_teams_ && weighs_pairs_once(sources, target))
     return add_symmetric_on_host(ExecSpace(), sources, velocity, viscosity_, precision_);
   add_general_velocity(sources, target, target.extent_int(0), velocity, viscosity_, precision_, by_teams_, partial_);
+}
+
+double DirectMobility::relative_cost(const NodeLines& nodes) const {
+  const MachineRates& rates = machine_rates(by_teams_ ? KernelPath::device : KernelPath::host);
+  const double n_pairs = nodes.n_nodes * nodes.n_nodes;
+  const auto time = [&](const bool is_single) {
+    return rates.direct_sum + rates.symmetric_direct_pair.of(is_single) * n_pairs;
+  };
+  return precision_ == Precision::in_single ? time(true) / time(false) : 1.0;
 }
 
 std::string DirectMobility::describe() const { return describe_direct_sum(precision_); }

@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/fmm/fmm_cost.hpp>
 #include <skein/fmm/fmm_sum.hpp>
 #include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/fmm_mobility.hpp>
@@ -98,11 +99,22 @@ void FmmMobility::use_sum(const Vectors& velocity) {
   sum_->add_to(velocity);
 }
 
-DirectMobility& FmmMobility::direct_sum_of(const double n_pairs) {
-  const bool is_single =
-      options_.precision == Precision::automatic &&
-      choose_direct_precision(machine_rates(options_.path), n_pairs, options_.tolerance) == Precision::in_single;
-  return is_single ? direct_in_single_ : direct_;
+bool FmmMobility::sums_directly_in_single(const double n_pairs) const {
+  return options_.precision == Precision::automatic &&
+         choose_direct_precision(machine_rates(options_.path), n_pairs, options_.tolerance) == Precision::in_single;
+}
+
+double FmmMobility::relative_cost(const NodeLines& nodes) const {
+  const double n_pairs = nodes.n_nodes * nodes.n_nodes;
+  const DirectMobility& direct = sums_directly_in_single(n_pairs) ? direct_in_single_ : direct_;
+  const double of_direct = direct.relative_cost(nodes);
+  if (n_pairs == 0.0 || sums_directly(n_pairs, FmmTargets::at_sources)) return of_direct;
+  const FmmPlan plan = choose_fmm_plan(options_, nodes.max_blob, 0);
+  const MachineRates& rates = machine_rates(options_.path);
+  const FmmWork work = expect_work_along_lines(nodes.n_nodes, nodes.length, plan);
+  const double of_method = (estimate_nanoseconds(work, plan, true, options_.path) + rates.tree) /
+                           (rates.direct_sum + rates.symmetric_direct_pair.in_double * n_pairs);
+  return options_.direct_when_cheaper ? std::min(of_direct, of_method) : of_method;
 }
 
 FmmTargets FmmMobility::place_of(const Sources& sources, const ConstVectors& target) const {

@@ -98,6 +98,16 @@ double Physics::time_scale() const {
   return std::isfinite(scale) ? scale : find_relaxation_time(fibers, viscosity);
 }
 
+double Physics::relative_sum_cost() const {
+  NodeLines nodes;
+  for (const Fiber& fiber : fibers) {
+    nodes.n_nodes += fiber.n_nodes();
+    nodes.length += fiber.length();
+    nodes.max_blob = std::max(nodes.max_blob, fiber.config.blob);
+  }
+  return mobility->relative_cost(nodes);
+}
+
 TimeCourse Physics::make_time_course() const {
   TimeCourse course;
   flow->add_course(course);

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 namespace skein {
@@ -24,19 +25,20 @@ FmmOptions put_targets_at_sources(FmmOptions options) {
 }  // namespace
 
 SymmetricMobility::SymmetricMobility(std::shared_ptr<const NodeSymmetry> symmetry, std::unique_ptr<Mobility> at_nodes,
-                                     std::unique_ptr<Mobility> elsewhere)
+                                     std::unique_ptr<Mobility> elsewhere, const double gain)
     : symmetry_(std::move(symmetry)),
       at_nodes_(std::move(at_nodes)),
       elsewhere_(std::move(elsewhere)),
       first_position_("skein::SymmetricMobility::first_position", symmetry_->orbits().n_orbits()),
       first_velocity_("skein::SymmetricMobility::first_velocity", symmetry_->orbits().n_orbits()),
-      before_("skein::SymmetricMobility::before", symmetry_->orbits().n_orbits()) {}
+      before_("skein::SymmetricMobility::before", symmetry_->orbits().n_orbits()),
+      gain_(gain) {}
 
 SymmetricMobility::SymmetricMobility(const double viscosity, const Precision precision,
                                      std::shared_ptr<const NodeSymmetry> symmetry, SumTeam* team)
-    : SymmetricMobility(std::move(symmetry),
+    : SymmetricMobility(symmetry, std::make_unique<DirectMobility>(viscosity, precision, KernelPath::automatic, team),
                         std::make_unique<DirectMobility>(viscosity, precision, KernelPath::automatic, team),
-                        std::make_unique<DirectMobility>(viscosity, precision, KernelPath::automatic, team)) {
+                        symmetry->orbits().gain()) {
   if (on_host<ExecSpace> && team == nullptr)
     images_ = std::make_unique<ImageSum>(symmetry_, viscosity,
                                          precision == Precision::automatic ? Precision::in_double : precision);
@@ -44,9 +46,9 @@ SymmetricMobility::SymmetricMobility(const double viscosity, const Precision pre
 
 SymmetricMobility::SymmetricMobility(const double viscosity, const FmmOptions& options,
                                      std::shared_ptr<const NodeSymmetry> symmetry, SumTeam* team)
-    : SymmetricMobility(std::move(symmetry),
-                        std::make_unique<FmmMobility>(viscosity, put_targets_at_sources(options), team),
-                        std::make_unique<FmmMobility>(viscosity, options, team)) {}
+    : SymmetricMobility(symmetry, std::make_unique<FmmMobility>(viscosity, put_targets_at_sources(options), team),
+                        std::make_unique<FmmMobility>(viscosity, options, team), std::sqrt(symmetry->orbits().gain())) {
+}
 
 SymmetricMobility::~SymmetricMobility() = default;
 
@@ -76,6 +78,12 @@ bool SymmetricMobility::try_images(const Sources& sources) {
   if (images_ == nullptr || !images_->suits(sources)) return false;
   images_->compute(sources, first_position_, first_velocity_);
   return true;
+}
+
+/// Where the method turns to direct sums, it has their gain.
+double SymmetricMobility::relative_cost(const NodeLines& nodes) const {
+  const double of_all_nodes = at_nodes_->relative_cost(nodes);
+  return of_all_nodes >= 1.0 ? of_all_nodes / symmetry_->orbits().gain() : of_all_nodes / gain_;
 }
 
 std::vector<std::string> SymmetricMobility::take_messages() {

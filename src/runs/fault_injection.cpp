@@ -65,6 +65,7 @@ class FaultyMobility final : public Mobility {
   void end_step() noexcept override { mobility_->end_step(); }
   bool sums_by_ranks() const override { return mobility_->sums_by_ranks(); }
   double expected_error() const override { return mobility_->expected_error(); }
+  double relative_cost(const NodeLines& nodes) const override { return mobility_->relative_cost(nodes); }
   double pairs() const override { return mobility_->pairs(); }
   std::string describe() const override { return mobility_->describe(); }
   void visit_memory(MemoryVisitor& visitor) override { mobility_->visit_memory(visitor); }

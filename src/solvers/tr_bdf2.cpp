@@ -65,7 +65,7 @@ void TrBdf2::factorize(const double scale) {
 void TrBdf2::update_preconditioner(const double scale) {
   const double ratio = preconditioner_.scale > 0.0 ? scale / preconditioner_.scale : 0.0;
   if (ratio > max_scale_ratio || ratio * max_scale_ratio < 1.0 ||
-      preconditioner_.excess > linearization_.factorization_cost()) {
+      preconditioner_.excess * (1.0 + linearization_.preconditioning_cost()) > linearization_.factorization_cost()) {
     vectors_.copy(factorized_position_, start_);
     preconditioner_ = {scale, -1.0, 0.0, preconditioner_.number + 1};
     factorize(scale);

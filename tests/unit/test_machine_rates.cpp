@@ -1,6 +1,6 @@
 // What is chosen for a device, against what was measured on one. No device is needed: choices are arithmetic.
 #include <skein/core/error.hpp>
-#include <skein/fmm/fmm_plan.hpp>
+#include <skein/fmm/fmm_cost.hpp>
 #include <skein/fmm/fmm_sum.hpp>
 #include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/mobility_choice.hpp>

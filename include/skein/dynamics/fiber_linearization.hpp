@@ -26,9 +26,10 @@ class FiberLinearization final : public Linearization {
   /// What has made an array that the linearization is given.
   using VectorsOf = std::function<NodeVectors&(const ConstVectors& vectors)>;
 
+  /// @param relative_sum_cost  of a velocity's sum, see Mobility::relative_cost
   /// @param symmetry  that products keep, and so what the preconditioner makes of them; null: none
-  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, Product product, VectorsOf vectors_of,
-                     std::shared_ptr<const NodeSymmetry> symmetry);
+  FiberLinearization(const std::vector<Fiber>& fibers, double viscosity, double relative_sum_cost, Product product,
+                     VectorsOf vectors_of, std::shared_ptr<const NodeSymmetry> symmetry);
   ~FiberLinearization() override;
 
   void set_position(double time, const ConstVectors& position) override;
@@ -46,7 +47,7 @@ class FiberLinearization final : public Linearization {
   };
   std::vector<Frame> make_frames(const std::vector<Vec3>& position) const;
   void update_turns();
-  double evaluations_for(double operations) const;
+  double evaluations_for(const double operations) const { return operations / evaluation_operations_; }
 
   std::vector<Fiber> fibers_;
   std::vector<SpringNetwork> networks_;
@@ -55,6 +56,7 @@ class FiberLinearization final : public Linearization {
   VectorsOf vectors_of_;
   std::shared_ptr<const NodeSymmetry> symmetry_;
   int n_nodes_;
+  double evaluation_operations_;  ///< of a velocity
   double time_ = 0.0;
   Vectors position_;
   std::vector<Frame> frames_, frames_at_factorization_;  ///< [n_sections]

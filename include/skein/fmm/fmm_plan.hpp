@@ -89,19 +89,4 @@ double harmonic_floor(double blob, double half_width, int tail_degree = 0);
 /// Bound of what single precision costs in the near field of leaves of this size.
 double single_precision_error(double min_blob, double half_width);
 
-/// Counts of an evaluation that set its cost.
-struct FmmWork {
-  double n_sources = 0.0, n_targets = 0.0;
-  double near_pairs = 0.0;  ///< of nodes
-  double far_pairs = 0.0;   ///< of boxes
-  double n_boxes = 0.0;
-};
-
-/// Of one core, or of a device, for the work of a tree or of a part of it.
-double estimate_nanoseconds(const FmmWork& work, const FmmPlan& plan, bool is_symmetric, KernelPath path);
-
-/// Time of an evaluation over that of a direct sum, from measured rates of pairs and products (machine_rates.hpp).
-/// @param is_symmetric  sources are targets, with one blob: a host meets each pair once
-double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, bool is_symmetric, const FmmOptions& options);
-
 }  // namespace skein

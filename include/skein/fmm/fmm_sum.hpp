@@ -3,7 +3,7 @@
 #include <skein/arrays/sources.hpp>
 #include <skein/arrays/types.hpp>
 #include <skein/fmm/even_sample.hpp>
-#include <skein/fmm/fmm_plan.hpp>
+#include <skein/fmm/fmm_cost.hpp>
 #include <skein/ranks/communicator.hpp>
 
 #include <cstdint>

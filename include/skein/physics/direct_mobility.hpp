@@ -22,6 +22,7 @@ class DirectMobility final : public Mobility {
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   bool sums_by_ranks() const override { return team_ != nullptr; }
   double expected_error() const override { return precision_ == Precision::in_single ? 1e-6 : 0.0; }
+  double relative_cost(const NodeLines& nodes) const override;
   double pairs() const override { return pairs_; }
   std::string describe() const override;
   void visit_memory(MemoryVisitor&) override {}

@@ -35,6 +35,7 @@ class FmmMobility final : public Mobility {
   void end_step() noexcept override { sum_->end_step(); }
   bool sums_by_ranks() const override { return team_ != nullptr; }
   double expected_error() const override { return options_.tolerance; }
+  double relative_cost(const NodeLines& nodes) const override;
   double pairs() const override { return pairs_; }
   std::string describe() const override;
   void visit_memory(MemoryVisitor& visitor) override;
@@ -51,7 +52,10 @@ class FmmMobility final : public Mobility {
   /// True where direct sums are the rule for so many pairs, before a tree is built.
   bool sums_directly(double n_pairs, FmmTargets targets) const;
   /// That stands in for the method, in the precision that the machine and the tolerance suggest.
-  DirectMobility& direct_sum_of(double n_pairs);
+  bool sums_directly_in_single(double n_pairs) const;
+  DirectMobility& direct_sum_of(const double n_pairs) {
+    return sums_directly_in_single(n_pairs) ? direct_in_single_ : direct_;
+  }
   /// Computes the sum of the arrays that were taken; false where a direct sum is cheaper.
   bool evaluate(FmmTargets targets);
   /// False where the sum, which is to be added to `velocity`, missed the tolerance, and the order is raised now.

@@ -10,6 +10,13 @@
 
 namespace skein {
 
+/// Nodes along fibers, as far as the cost of a sum over them depends on them.
+struct NodeLines {
+  double n_nodes = 0.0;
+  double length = 0.0;    ///< of all fibers together
+  double max_blob = 0.0;  ///< length
+};
+
 /// Fluid response to forces: velocity += M(target, source) force. Free space, no inertia; self terms are included.
 /// There is no set-up protocol: positions are arguments of the call. Implementations agree within their stated error;
 /// DirectMobility is the reference, and tests/property holds every implementation to the same properties.
@@ -35,6 +42,10 @@ class Mobility {
 
   /// Of velocities, relative (2-norm); 0 where it is that of double precision.
   virtual double expected_error() const { return 0.0; }
+
+  /// Of one sum whose sources are its targets: its time over that of a direct sum in double precision without any
+  /// symmetry. What is decided by it is decided alike in every run: it follows from the arguments, never from clocks or from calls before.
+  virtual double relative_cost(const NodeLines& /*nodes*/) const { return 1.0; }
 
   /// Source-target pairs a direct sum would have needed for the calls so far: the unit of the cost card.
   virtual double pairs() const = 0;

@@ -61,6 +61,9 @@ struct Physics {
   /// fibers; where nothing moves them, that in which a bend of the quickest fiber relaxes.
   double time_scale() const;
 
+  /// Of the sum in a velocity, see Mobility::relative_cost.
+  double relative_sum_cost() const;
+
   /// When the flow and the forces change by themselves.
   TimeCourse make_time_course() const;
 

@@ -34,6 +34,7 @@ class SymmetricMobility final : public Mobility {
   void add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) override;
   void begin_step() override { at_nodes_->begin_step(); }
   void end_step() noexcept override { at_nodes_->end_step(); }
+  double relative_cost(const NodeLines& nodes) const override;
   double pairs() const override { return pairs_ + elsewhere_->pairs(); }
   std::string describe() const override;
   void visit_memory(MemoryVisitor& visitor) override { at_nodes_->visit_memory(visitor); }
@@ -44,7 +45,7 @@ class SymmetricMobility final : public Mobility {
   class ImageSum;
 
   SymmetricMobility(std::shared_ptr<const NodeSymmetry> symmetry, std::unique_ptr<Mobility> at_nodes,
-                    std::unique_ptr<Mobility> elsewhere);
+                    std::unique_ptr<Mobility> elsewhere, double gain);
   /// Each pair of a node and an image once, where that can be. @returns false where not
   bool try_images(const Sources& sources);
   /// Overwrites first_velocity_. @param velocity  that the sum is to be added to
@@ -54,6 +55,7 @@ class SymmetricMobility final : public Mobility {
   std::unique_ptr<Mobility> at_nodes_, elsewhere_;    ///< sums over all nodes, for first ones and for other targets
   std::unique_ptr<ImageSum> images_;                  ///< null: not by direct sums on a host
   Vectors first_position_, first_velocity_, before_;  ///< [n_orbits, 3]
+  double gain_;  ///< by what the symmetry makes the sums over nodes faster
   double pairs_ = 0.0;
   bool was_elsewhere_ = false;  ///< the last sum, which is the one to describe
 };
