@@ -4,7 +4,7 @@
 #include <skein/core/error.hpp>
 
 #include "kernels/spring_teams.hpp"
-#include "kernels/spring_tile.hpp"
+#include "kernels/spring_tiles.hpp"
 
 namespace skein {
 namespace {
@@ -45,31 +45,6 @@ KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& spr
     }
   }
   return energy;
-}
-
-/// The tile of a node's section, or of the first one whose springs reach it.
-int tile_of(const SpringArrays<HostSpace>& springs, const int node, const bool looks_back) {
-  const FiberSprings fiber = springs.fiber(springs.fiber_of_node(node));
-  const int section = (node - fiber.first_node) / fiber.nodes_per_section;
-  return fiber.first_tile + math::larger(0, section - (looks_back ? fiber.reach : 0)) / sections_per_tile;
-}
-
-void add_on_host(const HostSpace& space, const SpringArrays<HostSpace>& springs, const IndexRange nodes,
-                 const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
-  const int n_nodes = force.extent_int(0);
-  const double per_tile = 25.0 * n_nodes / math::larger(1, springs.fiber_of_tile.extent_int(0));
-  // Tiles whose springs reach forward to these nodes are among them.
-  const int first_tile = tile_of(springs, nodes.first, true);
-  const int n_tiles = tile_of(springs, nodes.first + nodes.count - 1, false) + 1 - first_tile;
-  launch<HostSpace>("skein::add_spring_force", space, Calls{n_tiles, per_tile},
-                    [=](const int i) { add_tile_force(springs, first_tile + i, position, force); });
-
-  const int n_reactions = springs.reaction.extent_int(0);
-  launch<HostSpace>("skein::add_spring_reaction", space, Calls{nodes.count, 3.0}, [=](const int i) {
-    const int node = nodes.first + i;
-    for (int row = node; row < n_reactions; row += n_nodes)
-      store(force, node, load(force, node) + load(springs.reaction, row));
-  });
 }
 
 template <class Space>
@@ -126,7 +101,7 @@ void add_spring_force(const Space& space, const SpringArrays<Space>& springs, co
     add_by_nodes_of_host(space, springs, nodes, position, force);
   } else {
     check_extents<Space>(springs, position, force);
-    add_on_host(space, springs, nodes, position, force);
+    add_spring_force_by_tiles(space, springs, nodes, position, force);
   }
 }
 

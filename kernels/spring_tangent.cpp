@@ -5,6 +5,7 @@
 
 #include "kernels/spring_node.hpp"
 #include "kernels/spring_strain.hpp"
+#include "kernels/spring_tiles.hpp"
 
 namespace skein {
 namespace {
@@ -35,8 +36,12 @@ void add_spring_force_change(const Space& space, const SpringArrays<Space>& spri
   SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0) && displacement.extent(0) == position.extent(0) &&
                     change.extent(0) == position.extent(0),
                 "positions, displacements, changes and the nodes of the springs differ in number");
+  if (nodes.count == 0) return;
+  if constexpr (on_host<Space>)
+    if (!springs.has_wide_sections)
+      return add_spring_force_change_by_tiles(space, springs, nodes, position, displacement, change);
   launch<Space>(
-      "skein::add_spring_force_change", space, Calls{nodes.count, 100.0}, KOKKOS_LAMBDA(const int i) {
+      "skein::add_spring_force_change_by_nodes", space, Calls{nodes.count, 100.0}, KOKKOS_LAMBDA(const int i) {
         const int node = nodes.first + i;
         store(change, node, load(change, node) + change_on_node<Space>(springs, position, displacement, node));
       });

@@ -6,7 +6,8 @@
 #include "kernels/spring_force.hpp"
 
 // The springs of a few sections of a fiber on the host, one section in each lane: every spring is weighed once, its
-// rest length is the same in all lanes, and any number of nodes per section fills the lanes.
+// rest length is the same in all lanes, and any number of nodes per section fills the lanes. What is added up are
+// forces (SpringPull) or changes of them (SpringPullChange).
 
 namespace skein {
 
@@ -35,34 +36,85 @@ struct SpringRow {
   int first_other;
 };
 
-/// Adds the forces of a row of springs to both of their ends.
+/// A vector in each lane.
+struct VectorPack {
+  simd::Pack<double> x, y, z;
+};
+inline VectorPack operator-(const VectorPack& a, const VectorPack& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline simd::Pack<double> dot(const VectorPack& a, const VectorPack& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline VectorPack node_of(const SectionTile& tile, const int a) { return {tile.x[a], tile.y[a], tile.z[a]}; }
+
+/// The force on the first node of a spring, see add_spring_force; its other node has the opposite.
+struct SpringPull {
+  struct Nodes {
+    SectionTile position;
+  };
+  struct Node {
+    VectorPack position;
+  };
+  static Node node(const Nodes& nodes, const int a) { return {node_of(nodes.position, a)}; }
+
+  /// @param stiffness  with its factor, by lane
+  static VectorPack of(const Node& own, const Node& other, const simd::Pack<double> factor, const double stiffness,
+                       const double inverse_rest_length) {
+    constexpr double smallest = 1e-300;  // keeps r = 0 finite; nothing else notices it
+    const VectorPack d = own.position - other.position;
+    const simd::Pack<double> inverse_r = inverse_sqrt(dot(d, d) + smallest);
+    const simd::Pack<double> pull = factor * (stiffness * (inverse_r - inverse_rest_length));
+    return {pull * d.x, pull * d.y, pull * d.z};
+  }
+};
+
+/// The same of the change, see add_spring_force_change.
+struct SpringPullChange {
+  struct Nodes {
+    SectionTile position, displacement;
+  };
+  struct Node {
+    VectorPack position, displacement;
+  };
+  static Node node(const Nodes& nodes, const int a) {
+    return {node_of(nodes.position, a), node_of(nodes.displacement, a)};
+  }
+
+  static VectorPack of(const Node& own, const Node& other, const simd::Pack<double> factor, const double stiffness,
+                       const double inverse_rest_length) {
+    constexpr double smallest = 1e-300;
+    const VectorPack d = own.position - other.position, v = own.displacement - other.displacement;
+    const simd::Pack<double> r_squared = dot(d, d), rest = inverse_rest_length - simd::Pack<double>{};
+    // At r = 0 there is no direction, and no change.
+    const simd::Pack<double> inverse_r = r_squared == 0.0 ? rest : inverse_sqrt(r_squared + smallest);
+    const simd::Pack<double> stiff = factor * stiffness;
+    const simd::Pack<double> across = stiff * (inverse_r - rest);
+    const simd::Pack<double> along = stiff * (inverse_r * inverse_r * inverse_r) * dot(d, v);
+    return {across * v.x - along * d.x, across * v.y - along * d.y, across * v.z - along * d.z};
+  }
+};
+
+/// Adds what a row of springs does to both of their ends.
 /// @param factor  of the stiffness, by lane; 0 where the fiber has ended
-inline void add_row(const SpringRow& row, const simd::Pack<double> factor, const SectionTile& own,
-                    const SectionTile& other, SectionTile& force, SectionTile& reaction) {
-  using Pack = simd::Pack<double>;
-  constexpr double smallest = 1e-300;  // keeps r = 0 finite; nothing else notices it
+template <class Pull>
+void add_row(const SpringRow& row, const simd::Pack<double> factor, const typename Pull::Nodes& own,
+             const typename Pull::Nodes& other, SectionTile& force, SectionTile& reaction) {
   const int a = row.a;
-  const Pack x = own.x[a], y = own.y[a], z = own.z[a];
-  Pack fx = {}, fy = {}, fz = {};
+  const typename Pull::Node node = Pull::node(own, a);
+  VectorPack sum = {};
   for (int b = row.first_other; b < row.nodes_per_section; ++b) {
     const int node_offset = b >= a ? b - a : b - a + row.nodes_per_section;
     const double stiffness = row.stiffness[node_offset];
     if (stiffness == 0.0) continue;
-    const Pack dx = x - other.x[b];
-    const Pack dy = y - other.y[b];
-    const Pack dz = z - other.z[b];
-    const Pack inverse_r = inverse_sqrt(dx * dx + dy * dy + dz * dz + smallest);
-    const Pack pull = factor * (stiffness * (inverse_r - row.inverse_rest_length[node_offset]));
-    fx += pull * dx;
-    fy += pull * dy;
-    fz += pull * dz;
-    reaction.x[b] -= pull * dx;
-    reaction.y[b] -= pull * dy;
-    reaction.z[b] -= pull * dz;
+    const VectorPack pull =
+        Pull::of(node, Pull::node(other, b), factor, stiffness, row.inverse_rest_length[node_offset]);
+    sum.x += pull.x;
+    sum.y += pull.y;
+    sum.z += pull.z;
+    reaction.x[b] -= pull.x;
+    reaction.y[b] -= pull.y;
+    reaction.z[b] -= pull.z;
   }
-  force.x[a] += fx;
-  force.y[a] += fy;
-  force.z[a] += fz;
+  force.x[a] += sum.x;
+  force.y[a] += sum.y;
+  force.z[a] += sum.z;
 }
 
 /// Sections first_section.. of a fiber, a lane each. Lanes behind the fiber's end repeat its last section.
@@ -107,31 +159,34 @@ inline simd::Pack<double> load_factors(const SpringArrays<HostSpace>& springs, c
   return factor;
 }
 
-/// Springs inside the tile's sections and from them to later ones: their force on the tile's own nodes into `force`,
-/// on later sections into `reaction` (rows by section offset), which nobody else writes.
-inline void add_tile_force(const SpringArrays<HostSpace>& springs, const int tile,
-                           const ConstVectorView<HostSpace>& position, const VectorView<HostSpace>& force) {
+/// Springs inside the tile's sections and from them to later ones: what they do to the tile's own nodes into `force`,
+/// to later sections into `reaction` (rows by section offset), which nobody else writes.
+/// @param load  makes Pull::Nodes of a fiber's sections, from one on
+template <class Pull, class Load>
+void add_tile(const SpringArrays<HostSpace>& springs, const int tile, const Load& load,
+              const VectorView<HostSpace>& force) {
   const FiberSprings fiber = springs.fiber(springs.fiber_of_tile(tile));
   const int first_section = (tile - fiber.first_tile) * sections_per_tile;
   const int n = fiber.nodes_per_section;
-  SectionTile own, other, own_force, reaction;
-  load_tile(position, fiber, first_section, own);
+  typename Pull::Nodes own, other;
+  SectionTile own_force, reaction;
+  load(fiber, first_section, own);
   own_force.set_to_zero(n);
 
   const double* stiffness = &springs.stiffness(fiber.first_entry);
   const double* inverse_rest_length = &springs.inverse_rest_length(fiber.first_entry);
   const simd::Pack<double> inside = load_factors(springs, fiber, first_section, 0);
   for (int a = 0; a < n; ++a)
-    add_row({stiffness, inverse_rest_length, n, a, a + 1}, inside, own, own, own_force, own_force);
+    add_row<Pull>({stiffness, inverse_rest_length, n, a, a + 1}, inside, own, own, own_force, own_force);
 
   for (int offset = 1; offset <= fiber.reach && first_section + offset < fiber.n_sections; ++offset) {
     stiffness += n;
     inverse_rest_length += n;
     const simd::Pack<double> factor = load_factors(springs, fiber, first_section, offset);
-    load_tile(position, fiber, first_section + offset, other);
+    load(fiber, first_section + offset, other);
     reaction.set_to_zero(n);
     for (int a = 0; a < n; ++a)
-      add_row({stiffness, inverse_rest_length, n, a, 0}, factor, own, other, own_force, reaction);
+      add_row<Pull>({stiffness, inverse_rest_length, n, a, 0}, factor, own, other, own_force, reaction);
     const int n_nodes = force.extent_int(0);
     put_tile(reaction, fiber, first_section + offset, (offset - 1) * n_nodes, springs.reaction,
              [](double& row, const double value) { row = value; });

@@ -1,4 +1,4 @@
-// What implicit steps of fibers are made of: the springs' tangent, banded factors, GMRES, the fibers' linearization.
+// What implicit steps of fibers are made of: banded factors, GMRES, the fibers' linearization.
 
 #include <skein/core/error.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
@@ -42,28 +42,6 @@ std::vector<Vec3> forces_of(const SpringForces& springs, const std::vector<Vec3>
   const Vectors force("force", position.size());
   springs.add_forces(0.0, to_device("position", position), force);
   return to_host(ConstVectors(force));
-}
-
-TEST(SpringTangent, IsTheDerivativeOfTheForcesAndSymmetric) {
-  const Bent bent;
-  const SpringForces springs(bent.fibers);
-  reference::Random random(5);
-  const int n = static_cast<int>(bent.position.size());
-  const auto v = reference::make_random_vectors(n, 1.0, random), w = reference::make_random_vectors(n, 1.0, random);
-  const auto change_by = [&](const std::vector<Vec3>& u) {
-    const Vectors change("change", n);
-    springs.add_force_changes(0.0, to_device("x", bent.position), to_device("u", u), change);
-    return to_host(ConstVectors(change));
-  };
-  const double h = 1e-7;
-  const auto above = forces_of(springs, reference::shifted(bent.position, h, v));
-  const auto below = forces_of(springs, reference::shifted(bent.position, -h, v));
-  const auto change = change_by(v);
-  auto difference = reference::shifted(above, -1.0, below);
-  difference = reference::shifted(change, -0.5 / h, difference);
-  EXPECT_LT(reference::norm_of(difference), 1e-6 * reference::norm_of(change));
-  EXPECT_NEAR(reference::inner_product(w, change), reference::inner_product(v, change_by(w)),
-              1e-11 * reference::norm_of(change) * reference::norm_of(w));
 }
 
 TEST(BlockBand, SolvesLikeADenseMatrix) {

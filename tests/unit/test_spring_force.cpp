@@ -2,93 +2,26 @@
 #include <skein/physics/spring_forces.hpp>
 
 #include "tests/reference/force_balance.hpp"
+#include "tests/reference/spring_reference.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace skein {
 namespace {
 
+using reference::add_springs;
+using reference::deform;
+using reference::Elastic;
+using reference::Long;
+using reference::LongVec;
+using reference::make_config;
+using reference::Shape;
+using reference::shapes;
+
 double component(const Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 double& component(Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
-
-using Long = long double;
-struct LongVec {
-  Long x = 0, y = 0, z = 0;
-};
-
-struct Elastic {
-  std::vector<LongVec> force;
-  Long energy = 0;
-};
-
-/// Stiffness of a section relative to the fiber's: straight lines between the points of its profile.
-Long profile_at(const FiberConfig& config, const int section) {
-  const Long at = Long(section) / (config.sections - 1);
-  const auto& points = config.stiffness_profile;
-  if (at <= points.front().position) return points.front().factor;
-  for (std::size_t i = 1; i < points.size(); ++i)
-    if (at <= points[i].position)
-      return points[i - 1].factor + (at - points[i - 1].position) * (Long(points[i].factor) - points[i - 1].factor) /
-                                        (Long(points[i].position) - points[i - 1].position);
-  return points.back().factor;
-}
-
-/// The springs again, in long double: every pair of nodes of a fiber that its reach joins, with the rest length
-/// measured on the straight fiber along x. Shares no code with the library.
-void add_reference(const FiberConfig& config, const int first, const std::vector<Vec3>& position, Elastic& elastic) {
-  const int n = config.nodes_per_section;
-  const Long pi = std::acos(Long(-1));
-  const Long spacing = 2 * Long(config.radius) * std::sin(pi / n);
-  const auto rest = [&](const int i) {
-    return LongVec{(i / n) * spacing, config.radius * std::cos(2 * pi * (i % n) / n),
-                   config.radius * std::sin(2 * pi * (i % n) / n)};
-  };
-  for (int i = 0; i < config.sections * n; ++i) {
-    for (int j = 0; j < i; ++j) {
-      const int apart = i / n - j / n, around = std::min((i - j + 3 * n) % n, (j - i + config.sections * n) % n);
-      if (apart > config.reach_along || (config.reach_around > 0 && around > config.reach_around)) continue;
-      const Long family = apart == 0 ? config.stiffness_within_sections : config.stiffness_between_sections;
-      const Long k = config.spring_stiffness * family * (profile_at(config, i / n) + profile_at(config, j / n)) / 2;
-      const LongVec p = rest(i), q = rest(j);
-      const Long l = std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
-      const Vec3 a = position[first + i], b = position[first + j];
-      const LongVec d{Long(a.x) - b.x, Long(a.y) - b.y, Long(a.z) - b.z};
-      const Long r = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-      elastic.energy += k * l * (r / l - 1) * (r / l - 1) / 2;
-      if (r == 0) continue;
-      const Long pull = -k * (r / l - 1) / r;
-      LongVec &f = elastic.force[first + i], &g = elastic.force[first + j];
-      f = {f.x + pull * d.x, f.y + pull * d.y, f.z + pull * d.z};
-      g = {g.x - pull * d.x, g.y - pull * d.y, g.z - pull * d.z};
-    }
-  }
-}
-
-FiberConfig make_config(const int sections, const int nodes_per_section, const double radius, const double stiffness) {
-  FiberConfig config;
-  config.sections = sections;
-  config.nodes_per_section = nodes_per_section;
-  config.radius = radius;
-  config.spring_stiffness = stiffness;
-  config.direction = {0.3, -1.0, 0.8};
-  return config;
-}
-
-/// Every node moved by up to `amount` radii in each direction.
-std::vector<Vec3> deform(const std::vector<Fiber>& fibers, const double amount, const unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::vector<Vec3> position = make_surface_nodes(fibers);
-  for (const Fiber& fiber : fibers)
-    for (int i = 0; i < fiber.n_nodes(); ++i) {
-      const Vec3 shift{uniform(generator), uniform(generator), uniform(generator)};
-      position[fiber.first_node + i] = position[fiber.first_node + i] + amount * fiber.config.radius * shift;
-    }
-  return position;
-}
 
 std::vector<Vec3> forces_of(const SpringForces& springs, const std::vector<Vec3>& position) {
   const Vectors force("force", position.size());
@@ -103,49 +36,14 @@ std::vector<double> energies_of(const SpringForces& springs, const std::vector<V
   return energy;
 }
 
-/// Shapes of one or two fibers, with sections on both sides of the number of lanes that a tile has.
-struct Shape {
-  std::vector<FiberConfig> configs;
-  double deformation;
-};
-
-std::vector<Shape> shapes() {
-  std::vector<Shape> all;
-  for (const int n : {3, 4, 7, 18})
-    for (const int sections : {2, 3, 8, 9, 17})
-      for (const double deformation : {0.02, 1.5}) all.push_back({{make_config(sections, n, 0.3, 0.7)}, deformation});
-  all.push_back({{make_config(11, 18, 0.3, 0.7), make_config(7, 5, 0.05, 2.3)}, 0.1});
-  all.push_back({{make_config(3, 70, 0.3, 0.7), make_config(4, 6, 0.1, 1.9)}, 0.1});  // more nodes than a tile holds
-  // Springs that differ along the fiber and by family, and reach farther or less far.
-  FiberConfig varied = make_config(13, 7, 0.3, 0.7);
-  varied.stiffness_profile = {{0.1, 0.3}, {0.4, 2.5}, {0.95, 1.1}};
-  varied.stiffness_within_sections = 1.7;
-  varied.stiffness_between_sections = 0.4;
-  FiberConfig far = make_config(11, 9, 0.2, 1.3);
-  far.reach_along = 3;
-  FiberConfig sparse = make_config(9, 68, 0.2, 1.3);
-  sparse.reach_around = 2;
-  sparse.stiffness_profile = {{0.0, 1.0}, {1.0, 3.0}};
-  FiberConfig both = varied;
-  both.reach_along = 2;
-  both.reach_around = 1;
-  for (const double deformation : {0.02, 0.5}) {
-    all.push_back({{varied}, deformation});
-    all.push_back({{far, varied}, deformation});
-    all.push_back({{both, far}, deformation});
-  }
-  all.push_back({{sparse, both}, 0.1});
-  return all;
-}
-
 TEST(SpringForce, MatchesTheReferenceInRandomShapes) {
   for (const Shape& shape : shapes()) {
     const auto fibers = make_fibers(shape.configs);
     const auto position = deform(fibers, shape.deformation, 11);
     const auto force = forces_of(SpringForces(fibers), position);
 
-    Elastic reference{std::vector<LongVec>(position.size()), 0};
-    for (const Fiber& fiber : fibers) add_reference(fiber.config, fiber.first_node, position, reference);
+    Elastic reference(position.size());
+    for (const Fiber& fiber : fibers) add_springs(fiber.config, fiber.first_node, position, reference);
     Long largest = 0, error = 0;
     for (std::size_t i = 0; i < position.size(); ++i) {
       const LongVec f = reference.force[i];
@@ -166,8 +64,8 @@ TEST(SpringForce, EnergiesMatchTheReferenceFiberByFiber) {
 
     ASSERT_EQ(energy.size(), fibers.size());
     for (std::size_t i = 0; i < fibers.size(); ++i) {
-      Elastic reference{std::vector<LongVec>(position.size()), 0};
-      add_reference(fibers[i].config, fibers[i].first_node, position, reference);
+      Elastic reference(position.size());
+      add_springs(fibers[i].config, fibers[i].first_node, position, reference);
       EXPECT_NEAR(energy[i] / static_cast<double>(reference.energy), 1.0, 1e-13);
     }
   }
@@ -231,8 +129,8 @@ TEST(SpringForce, SpringsOfLengthZeroExertNoForceAndNoNaN) {
   auto position = deform(first, 0.1, 15);
   position[9] = position[4];
   const auto force = forces_of(SpringForces(first), position);
-  Elastic reference{std::vector<LongVec>(position.size()), 0};
-  add_reference(first[0].config, 0, position, reference);
+  Elastic reference(position.size());
+  add_springs(first[0].config, 0, position, reference);
   for (const int node : {4, 9}) {
     EXPECT_NEAR(force[node].x, static_cast<double>(reference.force[node].x), 1e-13);
     EXPECT_NEAR(force[node].z, static_cast<double>(reference.force[node].z), 1e-13);
