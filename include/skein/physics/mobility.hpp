@@ -44,7 +44,8 @@ class Mobility {
   virtual double expected_error() const { return 0.0; }
 
   /// Of one sum whose sources are its targets: its time over that of a direct sum in double precision without any
-  /// symmetry. What is decided by it is decided alike in every run: it follows from the arguments, never from clocks or from calls before.
+  /// symmetry. What is decided by it is decided alike in every run: it follows from the arguments, never from clocks or
+  /// from calls before.
   virtual double relative_cost(const NodeLines& /*nodes*/) const { return 1.0; }
 
   /// Source-target pairs a direct sum would have needed for the calls so far: the unit of the cost card.

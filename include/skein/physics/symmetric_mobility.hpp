@@ -55,7 +55,7 @@ class SymmetricMobility final : public Mobility {
   std::unique_ptr<Mobility> at_nodes_, elsewhere_;    ///< sums over all nodes, for first ones and for other targets
   std::unique_ptr<ImageSum> images_;                  ///< null: not by direct sums on a host
   Vectors first_position_, first_velocity_, before_;  ///< [n_orbits, 3]
-  double gain_;  ///< by what the symmetry makes the sums over nodes faster
+  double gain_;                                       ///< by what the symmetry makes the sums over nodes faster
   double pairs_ = 0.0;
   bool was_elsewhere_ = false;  ///< the last sum, which is the one to describe
 };
