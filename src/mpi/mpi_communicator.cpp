@@ -1,6 +1,8 @@
 #include <skein/ranks/rank_error.hpp>
 
 #include "mpi/launch.hpp"
+#include "mpi/mpi_checks.hpp"
+#include "mpi/point_to_point.hpp"
 #include "mpi/rank_watch.hpp"
 
 #include <fmt/format.h>
@@ -17,8 +19,8 @@
 #include <thread>
 #include <utility>
 
-// The one source that knows MPI. All collectives are non-blocking and polled, so that a rank that is lost is noticed
-// while others wait for it; a thread of its own sends and hears pulses and looks at the clock.
+// All collectives are non-blocking and polled, so that a rank that is lost is noticed while others wait for it; a
+// thread of its own sends and hears pulses and looks at the clock.
 
 namespace skein {
 namespace {
@@ -40,20 +42,9 @@ double read_clock(const clockid_t clock) {
 }
 double now() { return read_clock(CLOCK_MONOTONIC); }
 
-void check(const int status, const char* what) {
-  if (status == MPI_SUCCESS) return;
-  char text[MPI_MAX_ERROR_STRING] = "";
-  int length = 0;
-  MPI_Error_string(status, text, &length);
-  throw RankError(ExitCode::io_error, fmt::format("ranks cannot reach each other ({}): {}", what, text));
-}
-
 std::vector<int> to_ints(const std::vector<std::size_t>& numbers) {
   std::vector<int> result;
-  for (const std::size_t number : numbers) {
-    SKEIN_REQUIRE(number <= static_cast<std::size_t>(INT_MAX), "more numbers than MPI counts in one message");
-    result.push_back(static_cast<int>(number));
-  }
+  for (const std::size_t number : numbers) result.push_back(to_int(number));
   return result;
 }
 
@@ -63,11 +54,15 @@ class MpiCommunicator final : public Communicator {
     int level = MPI_THREAD_SINGLE;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_MULTIPLE, &level) != MPI_SUCCESS)
       throw Error(ExitCode::io_error, "MPI does not begin");
-    check(MPI_Comm_dup(MPI_COMM_WORLD, &sums_), "MPI_Comm_dup");
-    check(MPI_Comm_dup(MPI_COMM_WORLD, &pulses_), "MPI_Comm_dup");
+    check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &sums_), "MPI_Comm_dup");
+    check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &pulses_), "MPI_Comm_dup");
     for (const MPI_Comm communicator : {sums_, pulses_}) MPI_Comm_set_errhandler(communicator, MPI_ERRORS_RETURN);
     MPI_Comm_rank(sums_, &rank_);
     MPI_Comm_size(sums_, &size_);
+    // As rank 0 has it, or ranks would wait for what others do not send.
+    int reaches = rank_ == 0 && skein::reaches_device_memory() ? 1 : 0;
+    check_mpi(MPI_Bcast(&reaches, 1, MPI_INT, 0, sums_), "MPI_Bcast");
+    reaches_device_memory_ = reaches != 0;
     is_watched_ = level == MPI_THREAD_MULTIPLE && size_ > 1;
     if (is_watched_) watch_ = std::thread([this] { watch(); });
   }
@@ -77,9 +72,12 @@ class MpiCommunicator final : public Communicator {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   std::string describe() const override {
-    return fmt::format("{}{}", describe_mpi(),
+    return fmt::format("{}{}{}", describe_mpi(),
+                       reaches_device_memory_ ? ", which takes what is in the memory of devices" : "",
                        is_watched_ || size_ == 1 ? "" : ", which notices no rank that hangs (no MPI_THREAD_MULTIPLE)");
   }
+
+  bool reaches_device_memory() const override { return reaches_device_memory_; }
 
   void broadcast(void* data, std::size_t bytes) override {
     traffic_.broadcast_bytes += static_cast<double>(bytes);
@@ -89,7 +87,7 @@ class MpiCommunicator final : public Communicator {
         scatter_to_all(at, piece);
       } else {
         MPI_Request request;
-        check(MPI_Ibcast(at, static_cast<int>(piece), MPI_BYTE, 0, sums_, &request), "MPI_Ibcast");
+        check_mpi(MPI_Ibcast(at, static_cast<int>(piece), MPI_BYTE, 0, sums_, &request), "MPI_Ibcast");
         wait(request);
       }
       at += piece;
@@ -101,32 +99,35 @@ class MpiCommunicator final : public Communicator {
     const std::vector<int> count = to_ints(parts.count), first = to_ints(parts.first);
     traffic_.gathered_bytes +=
         sizeof(double) * static_cast<double>(rank_ == 0 ? parts.total() : parts.count[own_rank()]);
+    if (reaches_device_memory_) return wait_for(by_messages().gather(own, parts, all));
     MPI_Request request;
-    check(MPI_Igatherv(own, count[own_rank()], MPI_DOUBLE, all, count.data(), first.data(), MPI_DOUBLE, 0, sums_,
-                       &request),
-          "MPI_Igatherv");
+    check_mpi(MPI_Igatherv(own, count[own_rank()], MPI_DOUBLE, all, count.data(), first.data(), MPI_DOUBLE, 0, sums_,
+                           &request),
+              "MPI_Igatherv");
     wait(request);
   }
 
   void gather_to_all(const std::vector<double*>& columns, const RankParts& parts) override {
     const std::vector<int> count = to_ints(parts.count), first = to_ints(parts.first);
     traffic_.shared_bytes += sizeof(double) * static_cast<double>(columns.size() * parts.total());
+    if (reaches_device_memory_) return wait_for(by_messages().gather_to_all(columns, parts));
     std::vector<MPI_Request> requests(columns.size());  // all of them on their way together
     for (std::size_t c = 0; c < columns.size(); ++c)
-      check(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DOUBLE, columns[c], count.data(), first.data(), MPI_DOUBLE, sums_,
-                            &requests[c]),
-            "MPI_Iallgatherv");
-    for (MPI_Request& request : requests) wait(request);
+      check_mpi(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DOUBLE, columns[c], count.data(), first.data(), MPI_DOUBLE, sums_,
+                                &requests[c]),
+                "MPI_Iallgatherv");
+    wait_for(std::move(requests));
   }
 
   void exchange(const double* send, const RankParts& sent, double* receive, const RankParts& received) override {
     const std::vector<int> n_sent = to_ints(sent.count), first_sent = to_ints(sent.first);
     const std::vector<int> n_received = to_ints(received.count), first_received = to_ints(received.first);
     traffic_.exchanged_bytes += sizeof(double) * static_cast<double>(sent.total() - sent.count[own_rank()]);
+    if (reaches_device_memory_) return wait_for(by_messages().exchange(send, sent, receive, received));
     MPI_Request request;
-    check(MPI_Ialltoallv(send, n_sent.data(), first_sent.data(), MPI_DOUBLE, receive, n_received.data(),
-                         first_received.data(), MPI_DOUBLE, sums_, &request),
-          "MPI_Ialltoallv");
+    check_mpi(MPI_Ialltoallv(send, n_sent.data(), first_sent.data(), MPI_DOUBLE, receive, n_received.data(),
+                             first_received.data(), MPI_DOUBLE, sums_, &request),
+              "MPI_Ialltoallv");
     wait(request);
   }
 
@@ -184,16 +185,22 @@ class MpiCommunicator final : public Communicator {
     count.push_back(static_cast<int>(bytes) - first.back());
     MPI_Request request;
     if (rank_ == 0)
-      check(MPI_Iscatterv(data, count.data(), first.data(), MPI_BYTE, MPI_IN_PLACE, 0, MPI_BYTE, 0, sums_, &request),
-            "MPI_Iscatterv");
+      check_mpi(
+          MPI_Iscatterv(data, count.data(), first.data(), MPI_BYTE, MPI_IN_PLACE, 0, MPI_BYTE, 0, sums_, &request),
+          "MPI_Iscatterv");
     else
-      check(MPI_Iscatterv(nullptr, nullptr, nullptr, MPI_BYTE, data + first[own_rank()], count[own_rank()], MPI_BYTE, 0,
-                          sums_, &request),
-            "MPI_Iscatterv");
+      check_mpi(MPI_Iscatterv(nullptr, nullptr, nullptr, MPI_BYTE, data + first[own_rank()], count[own_rank()],
+                              MPI_BYTE, 0, sums_, &request),
+                "MPI_Iscatterv");
     wait(request);
-    check(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_BYTE, data, count.data(), first.data(), MPI_BYTE, sums_, &request),
-          "MPI_Iallgatherv");
+    check_mpi(MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_BYTE, data, count.data(), first.data(), MPI_BYTE, sums_, &request),
+              "MPI_Iallgatherv");
     wait(request);
+  }
+
+  PointToPoint by_messages() const { return {sums_, rank_, size_}; }
+  void wait_for(std::vector<MPI_Request> requests) {
+    for (MPI_Request& request : requests) wait(request);
   }
 
   std::size_t own_rank() const { return static_cast<std::size_t>(rank_); }
@@ -203,7 +210,7 @@ class MpiCommunicator final : public Communicator {
     const double start = now();
     int done = 0;
     for (int n_tests = 0; done == 0; ++n_tests) {
-      check(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+      check_mpi(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
       if (has_problem_.load()) throw_problem();
       if (n_tests > sleep_after)
         std::this_thread::sleep_for(nap);
@@ -306,7 +313,7 @@ class MpiCommunicator final : public Communicator {
 
   MPI_Comm sums_ = MPI_COMM_NULL, pulses_ = MPI_COMM_NULL;
   int rank_ = 0, size_ = 1;
-  bool is_watched_ = false, works_ = false;
+  bool reaches_device_memory_ = false, is_watched_ = false, works_ = false;
   double work_seconds_ = 0.0;
   RankTraffic traffic_;
   std::atomic<double> work_since_{-1.0}, problem_at_{0.0};

@@ -58,7 +58,7 @@ Vectors own_rows(const Vectors& part, const RankParts& owners, const int rank) {
 
 void gather_rows_to_all(Communicator& ranks, const RankParts& owners, const Vectors& whole, const RowAccess access) {
   const auto rank = static_cast<std::size_t>(ranks.rank());
-  const SeenRows seen(whole, access, 0);
+  const SeenRows seen(whole, access, ranks.reaches_device_memory(), 0);
   seen.look(owners.first[rank], owners.count[rank]);
   ranks.gather_to_all({seen.column(0), seen.column(1), seen.column(2)}, owners);
   seen.take(0, owners.total());
@@ -75,7 +75,8 @@ void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vec
 void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole,
                   const RowAccess access) {
   const bool receives = ranks.rank() == 0;
-  const SeenRows sent(part, access, 0), received(receives ? whole : Vectors(), access, 1);
+  const bool reaches = ranks.reaches_device_memory();
+  const SeenRows sent(part, access, reaches, 0), received(receives ? whole : Vectors(), access, reaches, 1);
   sent.look(0, owners.count[static_cast<std::size_t>(ranks.rank())]);
   for (std::size_t c = 0; c < 3; ++c) ranks.gather(sent.column(c), owners, receives ? received.column(c) : nullptr);
   if (receives) received.take(0, owners.total());
@@ -87,7 +88,8 @@ void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& 
   const std::vector<std::size_t> none(owners.count.size());
   RankParts from_rank_0{none, none};
   from_rank_0.count[0] = owners.count[static_cast<std::size_t>(ranks.rank())];
-  const SeenRows received(part, access, 0), sent(sends ? whole : Vectors(), access, 1);
+  const bool reaches = ranks.reaches_device_memory();
+  const SeenRows received(part, access, reaches, 0), sent(sends ? whole : Vectors(), access, reaches, 1);
   if (sends) sent.look(0, owners.total());
   for (std::size_t c = 0; c < 3; ++c)
     ranks.exchange(sends ? sent.column(c) : nullptr, sends ? owners : RankParts{none, none}, received.column(c),
@@ -113,7 +115,7 @@ double add_up_products(Communicator& ranks, const RankParts& owners, const Vecto
     numbers = dot_chunks<ExecSpace>(space, rows_of(part, own.head, own.chunk_nodes),
                                     rows_of(other, own.head, own.chunk_nodes), at_once);
   for (std::size_t array = 0; array < n_arrays; ++array) {
-    const SeenRows seen(array == 0 ? part : other, access, 0);
+    const SeenRows seen(array == 0 ? part : other, access, false, 0);  // they are read here
     append_rows(seen, 0, own.head, numbers);
     append_rows(seen, own.head + own.chunk_nodes, own.tail, numbers);
   }

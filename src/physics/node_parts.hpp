@@ -17,29 +17,28 @@ Vectors make_part(const std::string& label, const RankParts& owners, int rank);
 Vectors own_rows(const Vectors& part, const RankParts& owners, int rank);
 Vectors rows_of(const Vectors& whole, std::size_t first, std::size_t n);
 
-/// How a communicator, which knows the host's memory alone, reaches rows of an array: where they are, or by copies on
-/// the host of what is sent and received, as a device needs it. No bit depends on it.
-enum class RowAccess { in_place, by_copies };
-inline constexpr RowAccess usual_row_access = on_host<ExecSpace> ? RowAccess::in_place : RowAccess::by_copies;
+/// How a communicator reaches rows of an array: where they are, or by copies on the host of what is sent and received,
+/// as a device needs it of one that knows the host's memory alone. No bit depends on it.
+enum class RowAccess { as_needed, in_place, by_copies };
 
 /// To be called by all ranks: each has its own rows of an array, and all rows afterwards. @param whole [owners.total(),
 /// 3]
 void gather_rows_to_all(Communicator& ranks, const RankParts& owners, const Vectors& whole,
-                        RowAccess access = usual_row_access);
+                        RowAccess access = RowAccess::as_needed);
 
 /// To be called by all ranks. The parts of an array on all ranks, or on rank 0 alone, or from rank 0.
 /// @param whole  [owners.total(), 3]; of rank 0 alone in the latter two
 void gather_parts_to_all(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole,
-                         RowAccess access = usual_row_access);
+                         RowAccess access = RowAccess::as_needed);
 void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& whole,
-                  RowAccess access = usual_row_access);
+                  RowAccess access = RowAccess::as_needed);
 void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part,
-                   RowAccess access = usual_row_access);
+                   RowAccess access = RowAccess::as_needed);
 
 /// The same of two arrays' dot product: with the bits of dot_product of the whole arrays.
 /// @returns it on rank 0, 0 on others
 double add_up_products(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& other,
-                       RowAccess access = usual_row_access);
+                       RowAccess access = RowAccess::as_needed);
 
 /// The parts of arrays that a rank other than 0 has, by the numbers that rank 0 gave them.
 class NodeParts {

@@ -25,9 +25,11 @@ inline double* find_room(const std::size_t which, const std::size_t n) {
 /// Rows of an array as a communicator sees them.
 class SeenRows {
  public:
-  /// @param room  where copies go: 0 or 1
-  SeenRows(const Vectors& rows, const RowAccess access, const std::size_t room)
-      : rows_(rows), are_copies_(access == RowAccess::by_copies) {
+  /// @param reaches_device_memory  what looks at the rows, where they are  @param room  where copies go: 0 or 1
+  SeenRows(const Vectors& rows, const RowAccess access, const bool reaches_device_memory, const std::size_t room)
+      : rows_(rows),
+        are_copies_(access == RowAccess::by_copies ||
+                    (access == RowAccess::as_needed && !on_host<ExecSpace> && !reaches_device_memory)) {
     ExecSpace().fence();
     if (are_copies_) copies_ = HostVectors(find_room(room, 3 * rows.extent(0)), rows.extent(0));
   }

@@ -214,6 +214,10 @@ class RankFaults(InFreshFolder):
         self.launch("info", "run")
         self.finish([USAGE], "3 ranks were started, and 'skein info' has no use for them", goes_on=False)
 
+    def test_a_wish_of_the_environment_that_is_none(self):
+        self.start(variables="SKEIN_GPU_AWARE_MPI=maybe", rank=0)
+        self.finish([USAGE], "SKEIN_GPU_AWARE_MPI is neither on nor off", goes_on=False)
+
 
 if __name__ == "__main__":
     main()

@@ -29,8 +29,8 @@ struct RankTraffic {
 enum class RankWork { forces, taking_nodes, direct_sum, fmm_sum };
 inline constexpr std::size_t n_kinds_of_rank_work = 4;
 
-/// Processes that compute one run together: rank 0 leads, the others do what it asks for. All arrays are in the host's
-/// memory. Every function that sends is called by all ranks, in the same order.
+/// Processes that compute one run together: rank 0 leads, the others do what it asks for. Arrays are in the host's
+/// memory, where nothing else is said. Every function that sends is called by all ranks, in the same order.
 ///
 /// @throws Error(io_error) from each of them where the ranks cannot reach each other; on rank 0 also what another rank
 /// has reported by fail(), with its exit code.
@@ -42,6 +42,9 @@ class Communicator {
   virtual int size() const = 0;
   /// One line: the library, its version, and how ranks that are lost are noticed.
   virtual std::string describe() const = 0;
+
+  /// Whether arrays may be in a device's memory, too, but for those of `broadcast`.
+  virtual bool reaches_device_memory() const { return false; }
 
   /// From rank 0 to all.
   virtual void broadcast(void* data, std::size_t bytes) = 0;
