@@ -77,7 +77,7 @@ double DirectMobility::relative_cost(const NodeLines& nodes) const {
   const auto time = [&](const bool is_single) {
     return rates.direct_sum + rates.symmetric_direct_pair.of(is_single) * n_pairs;
   };
-  return precision_ == Precision::in_single ? time(true) / time(false) : 1.0;
+  return precision_ == Precision::in_single && n_pairs > 0.0 ? time(true) / time(false) : 1.0;
 }
 
 std::string DirectMobility::describe() const { return describe_direct_sum(precision_); }

@@ -106,9 +106,10 @@ bool FmmMobility::sums_directly_in_single(const double n_pairs) const {
 
 double FmmMobility::relative_cost(const NodeLines& nodes) const {
   const double n_pairs = nodes.n_nodes * nodes.n_nodes;
+  if (n_pairs == 0.0) return 1.0;
   const DirectMobility& direct = sums_directly_in_single(n_pairs) ? direct_in_single_ : direct_;
   const double of_direct = direct.relative_cost(nodes);
-  if (n_pairs == 0.0 || sums_directly(n_pairs, FmmTargets::at_sources)) return of_direct;
+  if (sums_directly(n_pairs, FmmTargets::at_sources)) return of_direct;
   const FmmPlan plan = choose_fmm_plan(options_, nodes.max_blob, 0);
   const MachineRates& rates = machine_rates(options_.path);
   const FmmWork work = expect_work_along_lines(nodes.n_nodes, nodes.length, plan);
