@@ -132,7 +132,8 @@ class Bending final : public Force {
             .is_torque_free = true,
             .is_conservative = true,
             .is_steady = true,
-            .is_frame_indifferent = true};
+            .is_frame_indifferent = true,
+            .reach = 2};
   }
 
   void add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const override {

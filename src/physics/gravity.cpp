@@ -33,7 +33,7 @@ class Gravity final : public Force {
     for (const Fiber& fiber : fibers) n_nodes_.push_back(fiber.n_nodes());
   }
 
-  ForcePromises promises() const override { return {.is_conservative = true, .is_steady = true}; }
+  ForcePromises promises() const override { return {.is_conservative = true, .is_steady = true, .reach = 0}; }
 
   void add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const override {
     SKEIN_REQUIRE(position.extent(0) == node_weight_.extent(0) && force.extent(0) == position.extent(0),

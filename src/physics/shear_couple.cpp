@@ -113,7 +113,7 @@ class ShearCouple final : public Force {
         couple_(to_device("skein::ShearCouple::couple", make_couples(fibers))),
         power_("skein::ShearCouple::power", fibers, couple_.extent(0)) {}
 
-  ForcePromises promises() const override { return {.is_balanced = true, .is_steady = flow_.is_steady()}; }
+  ForcePromises promises() const override { return {.is_balanced = true, .is_steady = flow_.is_steady(), .reach = 1}; }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     for (const FlowTerms& terms : flow_.make_terms(time))

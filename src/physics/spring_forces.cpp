@@ -72,7 +72,10 @@ SpringForces::SpringForces(const std::vector<Fiber>& fibers, const KernelPath pa
 SpringForces::SpringForces(const std::vector<SpringNetwork>& networks, const KernelPath path)
     : springs_(std::make_unique<SpringArrays<ExecSpace>>(make_arrays(networks))),
       by_nodes_(path == KernelPath::device || !on_host<ExecSpace>) {
-  for (const SpringNetwork& network : networks) n_sections_.push_back(network.n_sections);
+  for (const SpringNetwork& network : networks) {
+    n_sections_.push_back(network.n_sections);
+    reach_ = std::max(reach_, network.stencil.reach);
+  }
   section_energy_ = Scalars("skein::section_energy", std::accumulate(n_sections_.begin(), n_sections_.end(), 0));
 }
 
@@ -85,7 +88,8 @@ ForcePromises SpringForces::promises() const {
           .is_torque_free = true,
           .is_conservative = true,
           .is_steady = true,
-          .is_frame_indifferent = true};
+          .is_frame_indifferent = true,
+          .reach = reach_};
 }
 
 void SpringForces::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {

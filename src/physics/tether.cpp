@@ -46,7 +46,7 @@ class Tethers final : public Force {
     }
   }
 
-  ForcePromises promises() const override { return {.is_conservative = true, .is_steady = is_steady_}; }
+  ForcePromises promises() const override { return {.is_conservative = true, .is_steady = is_steady_, .reach = 0}; }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     const LoadedSections<Tether> loads = loads_;

@@ -84,7 +84,7 @@ class Torques final : public Force {
     }
   }
 
-  ForcePromises promises() const override { return {.is_balanced = true, .is_steady = is_steady_}; }
+  ForcePromises promises() const override { return {.is_balanced = true, .is_steady = is_steady_, .reach = 0}; }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     const LoadedSections<Torque> loads = loads_;

@@ -76,6 +76,12 @@ struct WavePower {
   }
 };
 
+int find_reach(const std::vector<Fiber>& fibers) {
+  int reach = 0;
+  for (const Fiber& fiber : fibers) reach = std::max(reach, fiber.config.reach_along);
+  return reach;
+}
+
 std::ptrdiff_t count_helices(const std::vector<Fiber>& fibers) {
   return std::count_if(fibers.begin(), fibers.end(), [](const Fiber& fiber) { return fiber.config.is_helix(); });
 }
@@ -88,7 +94,8 @@ class Undulations final : public Force {
       : configs_(configs),
         waves_(make_wave_arrays(configs, fibers)),
         sums_("skein::Undulations::sums", fibers, waves_.fiber_of_node.extent(0)),
-        n_helices_(count_helices(fibers)) {}
+        n_helices_(count_helices(fibers)),
+        reach_(find_reach(fibers)) {}
 
   ForcePromises promises() const override {
     bool is_steady = true;
@@ -98,7 +105,8 @@ class Undulations final : public Force {
             .is_torque_free = true,
             .is_conservative = true,
             .is_steady = is_steady,
-            .is_frame_indifferent = true};
+            .is_frame_indifferent = true,
+            .reach = reach_};
   }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
@@ -163,6 +171,7 @@ class Undulations final : public Force {
   WaveArrays waves_;
   NodeSums sums_;
   std::ptrdiff_t n_helices_;
+  int reach_;
 };
 
 }  // namespace

@@ -149,6 +149,39 @@ TEST_P(ForceTest, MovesWithARigidBodyWhereItPromises) {
   EXPECT_NEAR(energy_at(moved), energy_at(nodes_), 1e-11 * std::abs(energy_at(nodes_)));
 }
 
+TEST_P(ForceTest, DependsOnNothingBeyondItsReach) {
+  const int reach = force().promises().reach;
+  if (reach == ForcePromises::everywhere) {
+    EXPECT_TRUE(force().promises().acts_between_fibers) << "a promise is missing";
+    return;
+  }
+  const Nodes f = forces_at(nodes_), v = random_vectors();
+  const auto change_at = [&](const Nodes& position, const Nodes& displacement) {
+    const Vectors change("change", position.size());
+    force().add_force_changes(moment_of_test, to_device("x", position), to_device("v", displacement), change);
+    return to_host(ConstVectors(change));
+  };
+  const Nodes change = change_at(nodes_, v);
+  for (const Fiber& fiber : physics_.fibers) {
+    const int n = fiber.config.nodes_per_section;
+    for (const int section : {0, 7, fiber.config.sections / 2, fiber.config.sections - 1}) {
+      Nodes moved = nodes_, displaced = v;
+      for (int node = 0; node < n_nodes(); ++node) {
+        const int other = (node - fiber.first_node) / n;
+        const bool is_own = node >= fiber.first_node && node < fiber.first_node + fiber.n_nodes();
+        if (is_own && std::abs(other - section) <= reach) continue;
+        moved[node] = moved[node] + random_.in_cube(0.01);
+        displaced[node] = random_.in_cube(1.0);
+      }
+      const Nodes after = forces_at(moved), change_after = change_at(moved, displaced);
+      for (int node = fiber.first_node + section * n; node < fiber.first_node + (section + 1) * n; ++node) {
+        EXPECT_EQ(after[node], f[node]) << "section " << section;
+        EXPECT_EQ(change_after[node], change[node]) << "section " << section;
+      }
+    }
+  }
+}
+
 TEST_P(ForceTest, IsSteadyWhereItPromises) {
   const Nodes now = forces_at(nodes_), later = forces_at(nodes_, moment_of_test + 0.1);
   EXPECT_EQ(now == later, force().promises().is_steady);

@@ -20,6 +20,9 @@ struct ForcePromises {
   bool is_steady = false;             ///< it does not depend on time
   bool is_frame_indifferent = false;  ///< nodes that move as a rigid body carry it with them
   bool acts_between_fibers = false;   ///< one fiber may take from it what another gives
+  /// The force on a section, and its change, depend on nodes of sections of the same fiber up to so far from it only.
+  int reach = everywhere;
+  static constexpr int everywhere = -1;  ///< on any
 };
 
 /// What acts on nodes besides the fluid: springs, a repulsion, gravity, ... A scene's forces are a list of these

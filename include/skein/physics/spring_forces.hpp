@@ -42,6 +42,7 @@ class SpringForces final : public Force {
  private:
   std::unique_ptr<SpringArrays<ExecSpace>> springs_;
   bool by_nodes_;
+  int reach_ = 0;                ///< of the farthest spring, sections
   std::vector<int> n_sections_;  ///< [n_fibers]
   Scalars section_energy_;
 };
