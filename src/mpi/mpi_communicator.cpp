@@ -122,7 +122,9 @@ class MpiCommunicator final : public Communicator {
   void exchange(const double* send, const RankParts& sent, double* receive, const RankParts& received) override {
     const std::vector<int> n_sent = to_ints(sent.count), first_sent = to_ints(sent.first);
     const std::vector<int> n_received = to_ints(received.count), first_received = to_ints(received.first);
-    traffic_.exchanged_bytes += sizeof(double) * static_cast<double>(sent.total() - sent.count[own_rank()]);
+    for (int other = 0; other < size_; ++other)
+      if (other != rank_)
+        traffic_.exchanged_bytes += static_cast<double>(sizeof(double) * sent.count[static_cast<std::size_t>(other)]);
     if (reaches_device_memory_) return wait_for(by_messages().exchange(send, sent, receive, received));
     MPI_Request request;
     check_mpi(MPI_Ialltoallv(send, n_sent.data(), first_sent.data(), MPI_DOUBLE, receive, n_received.data(),

@@ -91,7 +91,9 @@ class Clamps final : public Force {
     }
   }
 
-  ForcePromises promises() const override { return {.is_conservative = true, .is_steady = fastest_ == 0.0, .reach = 0}; }
+  ForcePromises promises() const override {
+    return {.is_conservative = true, .is_steady = fastest_ == 0.0, .reach = 0};
+  }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
     const LoadedSections<Clamp> loads = loads_;

@@ -138,7 +138,7 @@ bool FmmMobility::evaluate(const FmmTargets targets) {
 
 bool FmmMobility::passes_check(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   const EvenSample sample(target.extent_int(0), options_.n_checked_targets);
-  if (team_ != nullptr) team_->complete_forces(sources.force);
+  if (team_ != nullptr) team_->complete(sources);
   const Comparison comparison = compare(viscosity_, sources, target, *sum_, sample);
   if (team_ != nullptr) team_->complete(velocity);
   if (comparison.difference < rounding * norm_at(velocity, sample)) return true;
@@ -165,7 +165,7 @@ bool FmmMobility::lowers_order(const Sources& sources, const ConstVectors& targe
   raised_order_ = lower > choose_fmm_plan(options_, 0.0, 0).order ? lower : 0;
   const EvenSample sample(target.extent_int(0), options_.n_checked_targets);
   const bool has_sum = evaluate(targets);
-  if (team_ != nullptr) team_->complete_forces(sources.force);
+  if (team_ != nullptr) team_->complete(sources);
   const double error = has_sum ? compare(viscosity_, sources, target, *sum_, sample).relative() : 0.0;
   const bool is_met = has_sum && error <= lowering_share * options_.tolerance;
   if (is_met) {

@@ -40,6 +40,7 @@ ForceShare::ForceShare(const SceneConfig& asked, const int n_ranks) {
   forces = make_forces(scene, fibers);
   flow = make_background_flow(scene.flows);
   nodes = share_nodes(fibers, n_ranks);
+  needed = find_needed_rows(fibers, forces, nodes);
 }
 
 void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const ForceList& forces, const double time,
@@ -68,7 +69,10 @@ void ForceShare::compute_own(Communicator& ranks, const RankParts& nodes, const 
 
 SharedForces::SharedForces(TeamLink& link, std::set<int>& numbers, const SceneConfig& scene,
                            const std::vector<Fiber>& fibers, const ForceList& forces)
-    : link_(link), numbers_(numbers), nodes_(share_nodes(fibers, link.ranks.size())) {
+    : link_(link),
+      numbers_(numbers),
+      nodes_(share_nodes(fibers, link.ranks.size())),
+      needed_(find_needed_rows(fibers, forces, nodes_)) {
   for (const auto& force : forces) known_.push_back(force.get());
   while (!numbers_.insert(order_.scene).second) ++order_.scene;
   order_.kind = SumOrder::Kind::know_scene;
@@ -88,7 +92,7 @@ bool SharedForces::know(const ForceList& forces) const {
 bool SharedForces::compute(const ForceList& forces, const double time, const ConstVectors& position,
                            const ConstVectors& displacement, const Vectors& force) {
   link_.held = {};
-  link_.held_position = nullptr;
+  link_.forget_positions();
   if (!know(forces)) return false;
   order_.kind = displacement.is_allocated() ? SumOrder::Kind::compute_force_changes : SumOrder::Kind::compute_forces;
   order_.time = time;

@@ -5,6 +5,7 @@
 #include <skein/scene/scene_config.hpp>
 
 #include "force_table.hpp"
+#include "needed_rows.hpp"
 #include "sum_order.hpp"
 
 #include <memory>
@@ -18,6 +19,7 @@ namespace skein {
 struct ForceShare {
   ForceList forces;
   RankParts nodes;
+  NeededRows needed;
   std::unique_ptr<BackgroundFlow> flow;
 
   explicit ForceShare(const SceneConfig& asked, int n_ranks);
@@ -54,12 +56,14 @@ class SharedForces {
   bool know(const ForceList& forces) const;
   int scene() const { return order_.scene; }
   const RankParts& nodes() const { return nodes_; }
+  const NeededRows& needed() const { return needed_; }
 
  private:
   TeamLink& link_;
   std::set<int>& numbers_;
   std::vector<const Force*> known_;
   RankParts nodes_;
+  NeededRows needed_;
   SumOrder order_;
 };
 

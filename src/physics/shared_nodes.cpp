@@ -106,21 +106,35 @@ bool OwnedNodes::serve(const Physics& physics) const {
          physics.rigid_bodies.is_empty() && physics.symmetry == nullptr;
 }
 
-/// All ranks have the positions then. The order of an evaluation is filled in but for its kind.
+void OwnedNodes::gather_where_needed(const Vectors& part, const Vectors& whole) {
+  if (order_.are_local)
+    gather_needed_rows(link_.ranks, owners_, forces_->needed(), part, whole);
+  else
+    gather_parts_to_all(link_.ranks, owners_, part, whole);
+}
+
+/// All ranks have the positions that they need then. The order of an evaluation is filled in but for its kind.
 void OwnedNodes::take_positions(Part& at) {
+  // What the last sum did without, this one will do without. Where it does not, it asks.
+  order_.are_local = link_.has_divided && !forces_->needed().are_all();
   order_.are_held = evaluated_ == at.content && link_.held_position == position_.data();
   link_.held = {};
   link_.own_forces = {};
   if (order_.are_held) return send(order_.kind, at);
   position_ = {};
   evaluated_ = -1;
+  link_.forget_positions();
   const Vectors all = find_room();
   send(order_.kind, at);
   link_.ranks.begin_work(RankWork::forces);
-  gather_parts_to_all(link_.ranks, owners_, at.own, all);
+  gather_where_needed(at.own, all);
   position_ = all;
   evaluated_ = at.content;
   link_.held_position = all.data();
+  if (order_.are_local)
+    link_.own_positions = {&owners_, forces_->scene(), all};
+  else
+    link_.whole_position = all.data();
 }
 
 Sources OwnedNodes::compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force) {
@@ -157,7 +171,7 @@ Sources OwnedNodes::compute_force_changes(const Physics& physics, const double t
   adds_to_flow_ = false;
   take_positions(at);
   const Vectors all = find_room();
-  gather_parts_to_all(link_.ranks, owners_, moved.own, all);
+  gather_where_needed(moved.own, all);
   Kokkos::deep_copy(ExecSpace(), own_rows(velocity_), 0.0);
   return compute_own_forces(physics, all, force);
 }

@@ -69,7 +69,8 @@ class OwnedNodes final : public SharedNodes {
     part.content = ++last_content_;
   }
   void look_for_whole(Part& part) const {
-    if (part.whole.data() == nullptr && evaluated_ == part.content) part.whole = position_;
+    if (part.whole.data() == nullptr && evaluated_ == part.content && link_.whole_position == position_.data())
+      part.whole = position_;
   }
   PartWork make_work(const PartWork::Kind kind, const Part& result) const {
     PartWork work;
@@ -86,6 +87,7 @@ class OwnedNodes final : public SharedNodes {
   }
   Vectors gather_part(Part& part);
   Vectors find_room();
+  void gather_where_needed(const Vectors& part, const Vectors& whole);
   void take_positions(Part& at);
   Sources compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force);
   void drop_unused();
@@ -98,7 +100,7 @@ class OwnedNodes final : public SharedNodes {
   int next_number_ = 0;
   SumOrder order_;
   std::vector<Vectors> rooms_;     ///< for whole arrays; those that nobody else holds are free
-  Vectors position_;               ///< of all nodes, in the last evaluation
+  Vectors position_;               ///< in the last evaluation, of all nodes or as far as needed for own forces
   std::int64_t last_content_ = 0;  ///< of arrays
   std::int64_t evaluated_ = -1;    ///< that of the positions; -1: none was
   bool adds_to_flow_ = true;       ///< in the last evaluation: else to zeros

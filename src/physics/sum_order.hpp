@@ -73,8 +73,10 @@ struct SumOrder {
   FmmOptions options;  ///< compute_fmm
   FmmPlan plan;
 
-  bool gathers_forces = false;  ///< first of all: those of the last `evaluate`, from their owners to all ranks
-  int forces_scene = 0;         ///< of which scene that was
+  /// First of all: rows of those of the last evaluation, from their owners to all ranks
+  bool gathers_positions = false, gathers_forces = false;
+  int gathered_scene = 0;     ///< of which scene that was
+  bool are_local = false;     ///< evaluate, evaluate_changes: ranks get the rows that they need for their own forces
   bool is_delivered = false;  ///< add_direct, take_nodes, compute_fmm: to the ranks that own the targets, not to rank 0
   int array = 0;         ///< evaluate, evaluate_changes: positions; dot_product_of_parts, gather_parts, scatter_parts
   int other_array = 0;   ///< dot_product_of_parts
@@ -112,11 +114,13 @@ struct HeldNodes {
   }
 };
 
-/// Forces of which each rank has those on its own nodes.
-struct OwnForces {
-  const RankParts* owners = nullptr;  ///< null: there are none
+/// An array on nodes of which each rank has the rows of its own nodes, and maybe some others.
+struct OwnRows {
+  const RankParts* owners = nullptr;  ///< null: there is none
   int scene = 0;
-  Vectors force;  ///< [n_nodes, 3], of rank 0
+  Vectors rows;  ///< [n_nodes, 3], of rank 0
+
+  bool are(const ConstVectors& vectors) const { return owners != nullptr && rows.data() == vectors.data(); }
 };
 
 /// A sum in work whose targets are nodes that ranks own: each gets the velocities of its own.
@@ -141,17 +145,25 @@ struct TeamLink {
   Communicator& ranks;
   HeldNodes held;
   const double* held_position = nullptr;  ///< the positions that the others have since they computed forces
-  OwnForces own_forces;
-  Delivery* delivery = nullptr;  ///< null: rank 0 has all velocities in the end
-  bool has_parts = false;        ///< ranks have been told to make parts of arrays
+  OwnRows own_positions, own_forces;
+  const double* whole_position = nullptr;  ///< those of the last evaluation, since all ranks have all of them
+  bool has_divided = false;                ///< in the last sum each rank needed the positions of its own nodes only
+  Delivery* delivery = nullptr;            ///< null: rank 0 has all velocities in the end
+  bool has_parts = false;                  ///< ranks have been told to make parts of arrays
 
   /// To be done before the next order. Nothing is sent.
   void note(const PartWork& work) { works_.push_back(work); }
   void send(SumOrder& order);
-  /// For who looks at forces that he has been given: other nodes' come from their owners. Of other arrays nothing.
-  void gather_forces(const ConstVectors& force);
+  /// The others have other positions now.
+  void forget_positions() {
+    held_position = whole_position = nullptr;
+    own_positions = {};
+  }
+  /// For who looks at sources that he has been given: what is other nodes' comes from their owners. Of other arrays
+  /// nothing.
+  void complete(const Sources& sources);
   /// The same with an order, which is sent.
-  void send_gathering(SumOrder& order, const ConstVectors& force);
+  void send_completing(SumOrder& order, const Sources& sources);
 
  private:
   void post(SumOrder& order);

@@ -32,7 +32,7 @@ Sources rows_of(const Sources& sources, const std::size_t first, const std::size
 Vectors Delivery::own_rows() const { return rows_of(room, 0, owners.count[0]); }
 
 void TeamLink::send(SumOrder& order) {
-  order.gathers_forces = false;
+  order.gathers_positions = order.gathers_forces = false;
   post(order);
 }
 
@@ -51,19 +51,27 @@ void TeamLink::post(SumOrder& order) {
   ranks.broadcast(&order, sizeof order);
 }
 
-void TeamLink::send_gathering(SumOrder& order, const ConstVectors& force) {
-  order.gathers_forces = own_forces.owners != nullptr && own_forces.force.data() == force.data();
-  order.forces_scene = own_forces.scene;
+void TeamLink::send_completing(SumOrder& order, const Sources& sources) {
+  order.gathers_positions = own_positions.are(sources.position);
+  order.gathers_forces = own_forces.are(sources.force);
+  order.gathered_scene = order.gathers_positions ? own_positions.scene : own_forces.scene;
   post(order);
-  if (order.gathers_forces) gather_rows_to_all(ranks, *own_forces.owners, own_forces.force);
-  if (order.gathers_forces) own_forces = {};
+  if (order.gathers_positions) {
+    gather_rows_to_all(ranks, *own_positions.owners, own_positions.rows);
+    whole_position = own_positions.rows.data();
+    own_positions = {};
+  }
+  if (order.gathers_forces) {
+    gather_rows_to_all(ranks, *own_forces.owners, own_forces.rows);
+    own_forces = {};
+  }
 }
 
-void TeamLink::gather_forces(const ConstVectors& force) {
-  if (own_forces.owners == nullptr || own_forces.force.data() != force.data()) return;
+void TeamLink::complete(const Sources& sources) {
+  if (!own_positions.are(sources.position) && !own_forces.are(sources.force)) return;
   SumOrder order;
   order.kind = SumOrder::Kind::work_on_parts;
-  send_gathering(order, force);
+  send_completing(order, sources);
 }
 
 void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const ConstVectors& target) {
@@ -77,13 +85,14 @@ void send_nodes(TeamLink& link, SumOrder& order, const Sources& sources, const C
   }
   order.are_held = link.held.are(sources);
   link.held = {};
+  link.has_divided = order.is_divided;
   if (order.is_divided && order.are_held)
     link.send(order);
   else
-    link.send_gathering(order, sources.force);
+    link.send_completing(order, sources);
   Communicator& ranks = link.ranks;
   if (!order.are_held) {
-    link.held_position = nullptr;
+    link.forget_positions();
     send_vectors(ranks, sources.position);
     send_vectors(ranks, sources.force);
   }

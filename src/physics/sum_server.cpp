@@ -47,7 +47,9 @@ class SumServer {
   bool serve_next() {
     ranks_.broadcast(&order_, sizeof order_);
     for (std::size_t w = 0; w < order_.n_works; ++w) work(order_.works[w]);
-    if (order_.gathers_forces) gather_rows_to_all(ranks_, scenes_.at(order_.forces_scene).share.nodes, nodes_.force);
+    for (const auto& [gathers, rows] :
+         {std::pair{order_.gathers_positions, nodes_.position}, std::pair{order_.gathers_forces, nodes_.force}})
+      if (gathers) gather_rows_to_all(ranks_, scenes_.at(order_.gathered_scene).share.nodes, rows);
     switch (order_.kind) {
       case SumOrder::Kind::dismiss:
         return false;
@@ -126,17 +128,23 @@ class SumServer {
   static void make_room(Vectors& all, const std::size_t n_nodes) {
     if (all.extent(0) != n_nodes) all = Vectors("skein::SumServer::all", n_nodes);
   }
+  void gather_where_needed(const ForceShare& share, const Vectors& part, const Vectors& whole) {
+    if (order_.are_local)
+      gather_needed_rows(ranks_, share.nodes, share.needed, part, whole);
+    else
+      gather_parts_to_all(ranks_, share.nodes, part, whole);
+  }
   void evaluate() {
     const auto& [share, parts] = scenes_.at(order_.scene);
     make_room(nodes_.position, share.nodes.total());
     make_room(nodes_.force, share.nodes.total());
     ranks_.begin_work(RankWork::forces);
     const bool are_changes = order_.kind == SumOrder::Kind::evaluate_changes;
-    if (!order_.are_held) gather_parts_to_all(ranks_, share.nodes, parts[order_.array], nodes_.position);
+    if (!order_.are_held) gather_where_needed(share, parts[order_.array], nodes_.position);
     const Vectors velocity = parts.rows(order_.velocity);
     if (are_changes) {
       make_room(nodes_.displacement, share.nodes.total());
-      gather_parts_to_all(ranks_, share.nodes, parts[order_.displacement], nodes_.displacement);
+      gather_where_needed(share, parts[order_.displacement], nodes_.displacement);
       Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
     } else if (velocity.extent(0) > 0) {
       share.flow->compute_velocity(order_.time, parts.rows(order_.array), velocity);

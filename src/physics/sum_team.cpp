@@ -170,7 +170,7 @@ void SumTeam::complete(const Vectors& velocity) {
   if (delivery != nullptr && delivery->room.data() == velocity.data()) delivery->complete();
 }
 
-void SumTeam::complete_forces(const ConstVectors& force) { parts_->link.gather_forces(force); }
+void SumTeam::complete(const Sources& sources) { parts_->link.complete(sources); }
 
 bool SumTeam::advances_parts() const { return parts_->link.has_parts; }
 

@@ -20,8 +20,8 @@ class SharedNodes : public NodeVectors {
   virtual bool have_made(const ConstVectors& vectors) const = 0;
 
   /// Overwrites velocity with the flow at positions, both made here.
-  /// @param force  [n_nodes, 3], overwritten with the forces on own nodes: of all only after SumTeam::complete_forces
-  /// @returns them with all nodes' positions, which all ranks have then
+  /// @param force  [n_nodes, 3], overwritten with the forces on own nodes: of all only after SumTeam::complete
+  /// @returns them with positions, of all nodes after SumTeam::complete
   virtual Sources compute_forces(const Physics& physics, double time, const ConstVectors& position,
                                  const Vectors& velocity, const Vectors& force) = 0;
 

@@ -50,8 +50,9 @@ class SumTeam {
   /// this.
   void complete(const Vectors& velocity);
 
-  /// For who looks at forces that he has been given: on rank 0 they may be those on its own nodes only, before this.
-  void complete_forces(const ConstVectors& force);
+  /// For who looks at sources that he has been given: on rank 0 positions and forces may be those of its own nodes
+  /// only, before this.
+  void complete(const Sources& sources);
 
   /// True since an integrator was made whose arrays ranks have parts of.
   bool advances_parts() const;
