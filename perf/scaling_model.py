@@ -16,9 +16,10 @@ and in the picture:
            the tree, TOP_BOX seconds each
   leader   the end of a step, rank 0's alone: the search for faults and a copy of the state
   network  bytes by rank 0's link, which is the busiest: a gather, also to all, passes it once but for the rank's own part;
-           coefficients and copies of nodes as fitted. In a run positions are gathered to all, for forces; positions and forces
-           go to the ranks that have their places in the tree, velocities come back (all but one of as many parts of a rank's,
-           if nodes and places have nothing to do with each other), and rank 0 gathers what a checkpoint takes, once a step.
+           coefficients and copies of nodes as fitted. In a run positions and forces go to the ranks that have their places in
+           the tree, velocities come back (all but one of as many parts of a rank's, if nodes and places have nothing to do
+           with each other), rank 0 gathers positions and what a checkpoint takes, once a step, and what goes to all is as
+           measured; all positions (the dashed line), where fibers repel each other.
            Sums by themselves broadcast positions and forces, which pass the link once for two ranks, nearly twice for more (a
            part to each, which gives it to all others), and gather velocities. Arrays take two latencies each, as the receiver
            is asked first; orders travel with them.
@@ -88,6 +89,7 @@ class Model:
                          for n in sorted({row["ranks"] for row in several})}
         shared_steps = [row for row in steps if row["ranks"] > 1]
         self.kept = float(np.mean([row["gathered_B"] / row["nodes"] for row in shared_steps])) if shared_steps else 0.0
+        self.to_all = float(np.mean([row["shared_B"] / row["nodes"] for row in shared_steps])) if shared_steps else 0.0
         self.run_messages = float(np.mean([row["messages"] for row in shared_steps])) if shared_steps else 0.0
 
     @staticmethod
@@ -95,12 +97,12 @@ class Model:
         """Bytes of a rank's nodes to their places and back, and of a new tree now and then."""
         return (3.0 * VECTOR + NEW_TREE / kept) * n / ranks * (ranks - 1) / ranks
 
-    def network(self, n, ranks, latency, bandwidth, in_run, kept):
+    def network(self, n, ranks, latency, bandwidth, in_run, kept, repels):
         if ranks == 1:
             return 0.0
         others = (ranks - 1) / ranks
         if in_run:
-            by_link = (VECTOR + self.kept) * others
+            by_link = ((VECTOR if repels else self.to_all) + self.kept) * others
             messages, orders = self.run_messages, ORDERS_IN_RUN
         else:
             by_link = self.broadcast * (1.0 if ranks == 2 else 2.0 * others) + self.gather * others
@@ -109,14 +111,14 @@ class Model:
         bytes_moved = by_link * n + self.moved(n, ranks, kept) + self.surface * (n / ranks) ** (2 / 3)
         return bytes_moved / bandwidth + 2.0 * (messages - orders) * latency + messages * (ranks - 1) * SENDING
 
-    def seconds(self, n, ranks, cores=CORES, latency=LATENCY, bandwidth=BANDWIDTH, kept=KEPT, in_run=True):
+    def seconds(self, n, ranks, cores=CORES, latency=LATENCY, bandwidth=BANDWIDTH, kept=KEPT, in_run=True, repels=False):
         levels = max(1.0, np.log(n / self.box_nodes) / np.log(8.0))
         return {
             "shared": (self.shared + (self.owned if in_run else 0.0)) * n / ranks / cores,
             "tree": (self.tree if ranks > 1 else self.whole_tree) / kept * n / ranks * (SERIAL_TREE + (1.0 - SERIAL_TREE) / cores),
             "top": (ranks - 1) * (self.far_box * levels / cores + TOP_BOXES * TOP_BOX / kept),
             "leader": self.leader * n / cores if in_run else 0.0,
-            "network": self.network(n, ranks, latency, bandwidth, in_run, kept),
+            "network": self.network(n, ranks, latency, bandwidth, in_run, kept, repels),
         }
 
 
@@ -141,6 +143,8 @@ def draw(model, path):
         for name in PARTS:
             axis.loglog(ranks, np.maximum(parts[name], 1e-7), color=COLORS[name], marker=".", label=name)
         axis.loglog(ranks, total, "k", linewidth=2, label="all")
+        repelling = [sum(model.seconds(n, int(p), repels=True).values()) for p in ranks]
+        axis.loglog(ranks, repelling, "k--", linewidth=1, label="all, positions on every rank")
         axis.loglog(ranks, total[0] / ranks, "k:", linewidth=1, label="ideal")
         axis.set_title(f"N = {n:.0e}")
         axis.set_xlabel(f"nodes of {CORES} cores")
@@ -151,10 +155,10 @@ def draw(model, path):
         largest = max((name for name in PARTS if name != "shared"), key=lambda name: parts[name][-1])
         print(f"N = {n:.0e}: {total[0]:.3g} s on one node, {total[-1]:.3g} s on 64; half of the time is not shared from "
               f"{ends} nodes on, most of it {largest}; efficiency on 4, 16, 64: "
-              f"{efficiency[2]:.2f}, {efficiency[4]:.2f}, {efficiency[6]:.2f}")
+              f"{efficiency[2]:.2f}, {efficiency[4]:.2f}, {efficiency[6]:.2f}; where fibers repel each other {repelling[-1]:.3g} s on 64")
     axes[0].set_ylabel("seconds of an evaluation")
-    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=7)
-    figure.suptitle(f"Extrapolated: {LATENCY * 1e6:g} us, {BANDWIDTH / 1e9:g} GB/s; positions on every rank, a tree in parts for {KEPT:g} sums", fontsize=10)
+    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=8)
+    figure.suptitle(f"Extrapolated: {LATENCY * 1e6:g} us, {BANDWIDTH / 1e9:g} GB/s; a tree in parts for {KEPT:g} sums", fontsize=10)
     figure.tight_layout(rect=(0.0, 0.06, 1.0, 1.0))
     figure.savefig(path, dpi=120)
 
