@@ -18,6 +18,16 @@ double count_springs(const FiberConfig& fiber) {
 
 }  // namespace
 
+NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const ForceList& forces, const RankParts& owners) {
+  int reach = 0;
+  for (const auto& force : forces) {
+    const int of_force = force->promises().reach;
+    if (of_force == ForcePromises::everywhere) return {};
+    reach = std::max(reach, of_force);
+  }
+  return find_needed_rows(fibers, reach, owners);
+}
+
 RankParts share_nodes(const std::vector<Fiber>& fibers, const int n_ranks) {
   double total = 0.0, before = 0.0;
   for (const Fiber& fiber : fibers) total += count_springs(fiber.config) * fiber.config.sections;

@@ -34,6 +34,9 @@ struct ForceShare {
                           const ConstVectors& position, const ConstVectors& displacement, const Vectors& force);
 };
 
+/// By what the forces promise of their reach.
+NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const ForceList& forces, const RankParts& owners);
+
 /// Nodes of consecutive sections for each rank, with about as many springs.
 RankParts share_nodes(const std::vector<Fiber>& fibers, int n_ranks);
 

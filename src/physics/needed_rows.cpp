@@ -1,7 +1,5 @@
 #include "needed_rows.hpp"
 
-#include "seen_rows.hpp"
-
 #include <algorithm>
 
 namespace skein {
@@ -11,25 +9,19 @@ namespace {
 /// @param behind  rows are counted from here
 RankParts common_rows(const std::vector<std::size_t>& first, const std::vector<std::size_t>& end, const int rank,
                       const std::size_t own_first, const std::size_t own_end, const std::size_t behind) {
-  RankParts rows;
+  RankParts result;
   for (std::size_t other = 0; other < first.size(); ++other) {
     const std::size_t from = std::max(first[other], own_first), to = std::min(end[other], own_end);
     const bool has_some = to > from && other != static_cast<std::size_t>(rank);
-    rows.first.push_back(has_some ? from - behind : 0);
-    rows.count.push_back(has_some ? to - from : 0);
+    result.first.push_back(has_some ? from - behind : 0);
+    result.count.push_back(has_some ? to - from : 0);
   }
-  return rows;
+  return result;
 }
 
 }  // namespace
 
-NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const ForceList& forces, const RankParts& owners) {
-  int reach = 0;
-  for (const auto& force : forces) {
-    const int of_force = force->promises().reach;
-    if (of_force == ForcePromises::everywhere) return {};
-    reach = std::max(reach, of_force);
-  }
+NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const int reach, const RankParts& owners) {
   /// The first node of the section that lies so far from a node's, or at its fiber's end.
   const auto first_of_section = [&](const std::size_t node, const int sections_on) {
     const auto fiber = std::find_if(fibers.begin(), fibers.end(), [node](const Fiber& candidate) {
@@ -48,24 +40,14 @@ NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const ForceList& f
   return needed;
 }
 
-void gather_needed_rows(Communicator& ranks, const RankParts& owners, const NeededRows& needed, const Vectors& part,
-                        const Vectors& whole, const RowAccess access) {
-  const auto rank = static_cast<std::size_t>(ranks.rank());
-  const std::size_t own_first = owners.first[rank], own_end = own_first + owners.count[rank];
-  Kokkos::deep_copy(ExecSpace(), rows_of(whole, own_first, owners.count[rank]), own_rows(part, owners, ranks.rank()));
+RowsInTransit list_rows_in_transit(const RankParts& owners, const NeededRows& needed, const int rank) {
+  const auto r = static_cast<std::size_t>(rank);
+  const std::size_t own_first = owners.first[r], own_end = own_first + owners.count[r];
   std::vector<std::size_t> end_of_owner;
   for (std::size_t other = 0; other < owners.count.size(); ++other)
     end_of_owner.push_back(owners.first[other] + owners.count[other]);
-  const RankParts sent = common_rows(needed.first, needed.end, ranks.rank(), own_first, own_end, own_first);
-  const std::size_t first = needed.first[rank], end = needed.end[rank];
-  const RankParts received = common_rows(owners.first, end_of_owner, ranks.rank(), first, end, first);
-  const bool reaches = ranks.reaches_device_memory();
-  // Of the whole only the rows that are needed here, so that copies are of no others.
-  const SeenRows own(part, access, reaches, 0), there(rows_of(whole, first, end - first), access, reaches, 1);
-  own.look(0, owners.count[rank]);
-  for (std::size_t c = 0; c < 3; ++c) ranks.exchange(own.column(c), sent, there.column(c), received);
-  there.take(0, own_first - first);
-  there.take(own_end - first, end - own_end);
+  return {common_rows(needed.first, needed.end, rank, own_first, own_end, own_first),
+          common_rows(owners.first, end_of_owner, rank, needed.first[r], needed.end[r], needed.first[r])};
 }
 
 }  // namespace skein

@@ -3,9 +3,6 @@
 #include <skein/fibers/fiber.hpp>
 #include <skein/ranks/communicator.hpp>
 
-#include "force_table.hpp"
-#include "node_parts.hpp"
-
 #include <cstddef>
 #include <vector>
 
@@ -18,13 +15,14 @@ struct NeededRows {
   bool are_all() const { return first.empty(); }
 };
 
-/// By what the forces promise of their reach. @param owners  of the fibers' nodes, whole sections each
-NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const ForceList& forces, const RankParts& owners);
+/// @param reach   of the forces along a fiber, sections, >= 0  @param owners  of the fibers' nodes, whole sections each
+NeededRows find_needed_rows(const std::vector<Fiber>& fibers, int reach, const RankParts& owners);
 
-/// To be called by all ranks: of an array on nodes, the rows that each needs, its own included.
-/// @param needed  not all  @param part  own rows  @param whole  [owners.total(), 3], of which other rows stay as they
-/// are
-void gather_needed_rows(Communicator& ranks, const RankParts& owners, const NeededRows& needed, const Vectors& part,
-                        const Vectors& whole, RowAccess access = RowAccess::as_needed);
+/// Rows that one rank sends to each other and receives from each, where each gets what it needs of the others' own.
+/// Those sent are counted from the first own row, those received from the first that is needed.
+struct RowsInTransit {
+  RankParts sent, received;
+};
+RowsInTransit list_rows_in_transit(const RankParts& owners, const NeededRows& needed, int rank);
 
 }  // namespace skein

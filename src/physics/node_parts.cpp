@@ -97,6 +97,22 @@ void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& 
   received.take(0, from_rank_0.count[0]);
 }
 
+void gather_needed_rows(Communicator& ranks, const RankParts& owners, const NeededRows& needed, const Vectors& part,
+                        const Vectors& whole, const RowAccess access) {
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  const std::size_t own_first = owners.first[rank], own_end = own_first + owners.count[rank];
+  const std::size_t first = needed.first[rank], end = needed.end[rank];
+  Kokkos::deep_copy(ExecSpace(), rows_of(whole, own_first, owners.count[rank]), own_rows(part, owners, ranks.rank()));
+  const RowsInTransit rows = list_rows_in_transit(owners, needed, ranks.rank());
+  const bool reaches = ranks.reaches_device_memory();
+  // Of the whole only the rows that are needed here, so that there are copies of no others.
+  const SeenRows own(part, access, reaches, 0), there(rows_of(whole, first, end - first), access, reaches, 1);
+  own.look(0, owners.count[rank]);
+  for (std::size_t c = 0; c < 3; ++c) ranks.exchange(own.column(c), rows.sent, there.column(c), rows.received);
+  there.take(0, own_first - first);
+  there.take(own_end - first, end - own_end);
+}
+
 double add_up_products(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& other,
                        const RowAccess access) {
   const int at_once = choose_dot_chunk<ExecSpace>(static_cast<int>(owners.total()));

@@ -3,6 +3,7 @@
 #include <skein/arrays/types.hpp>
 #include <skein/ranks/communicator.hpp>
 
+#include "needed_rows.hpp"
 #include "sum_order.hpp"
 
 #include <string>
@@ -34,6 +35,11 @@ void gather_parts(Communicator& ranks, const RankParts& owners, const Vectors& p
                   RowAccess access = RowAccess::as_needed);
 void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& whole, const Vectors& part,
                    RowAccess access = RowAccess::as_needed);
+
+/// The same of the rows that each rank needs, its own included. @param needed  not all  @param whole  [owners.total(),
+/// 3], of which other rows stay as they are
+void gather_needed_rows(Communicator& ranks, const RankParts& owners, const NeededRows& needed, const Vectors& part,
+                        const Vectors& whole, RowAccess access = RowAccess::as_needed);
 
 /// The same of two arrays' dot product: with the bits of dot_product of the whole arrays.
 /// @returns it on rank 0, 0 on others

@@ -2,7 +2,7 @@
 #include <skein/physics/physics.hpp>
 
 #include "src/physics/force_share.hpp"
-#include "src/physics/needed_rows.hpp"
+#include "src/physics/node_parts.hpp"
 #include "tests/reference/point_cloud.hpp"
 
 #include <gtest/gtest.h>
