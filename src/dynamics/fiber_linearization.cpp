@@ -12,7 +12,12 @@
 namespace skein {
 namespace {
 
-constexpr int near_sections = 5;  // wider bands save iterations, but cost more than those (N_f = 80 and 113)
+// Of sections to either side. Wider bands save iterations, but cost more than those (N_f = 80 and 113); where sums are
+// cheap, beside the matrix, a narrow band takes 0.5 to 0.8 of the time, with 1.0 to 1.5 times as many iterations
+// (docs/time_stepping.md).
+constexpr int usual_near_sections = 5, narrow_near_sections = 1;
+constexpr double cheap_sum = 0.5;  // over a direct one
+constexpr double narrow_iterations = 1.5;
 // At the speed at which pairs are summed.
 constexpr double pair_operations = 16.0;
 constexpr double spring_operations = 50.0;
@@ -34,11 +39,12 @@ FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const d
       vectors_of_(std::move(vectors_of)),
       symmetry_(std::move(symmetry)),
       n_nodes_(count_nodes(fibers)),
+      near_sections_(relative_sum_cost < cheap_sum ? narrow_near_sections : usual_near_sections),
       evaluation_operations_(pair_operations * n_nodes_ * n_nodes_ * relative_sum_cost +
                              spring_operations * static_cast<double>(count_springs(fibers))) {
   for (const SpringNetwork& network : networks_)
     bands_.push_back(std::make_unique<BlockBand>(network.n_sections, 3 * network.stencil.nodes_per_section,
-                                                 near_sections + network.stencil.reach));
+                                                 near_sections_ + network.stencil.reach));
 }
 
 FiberLinearization::~FiberLinearization() = default;
@@ -114,7 +120,7 @@ bool FiberLinearization::factorize(const ConstVectors& position, const double sc
         .blob = fibers_[f].config.blob,
         .viscosity = viscosity_};
     const auto first = list.begin() + fibers_[f].first_node;
-    compute_near_damping(fiber, {first, first + fibers_[f].n_nodes()}, near_sections, scale, *bands_[f]);
+    compute_near_damping(fiber, {first, first + fibers_[f].n_nodes()}, near_sections_, scale, *bands_[f]);
     if (!bands_[f]->factorize()) return false;
   }
   frames_at_factorization_ = make_frames(list);
@@ -122,23 +128,16 @@ bool FiberLinearization::factorize(const ConstVectors& position, const double sc
   return true;
 }
 
-double FiberLinearization::factorization_cost() const {
-  double operations = 0.0;
-  for (const auto& band : bands_) {
-    const double size = band->block_size(), width = band->half_width();
-    operations += 2.0 * band->n_rows() * size * size * size * (width * width + 7.0 * width + 4.0);
-  }
-  return evaluations_for(operations);
-}
-
-double FiberLinearization::preconditioning_cost() const {
+PreconditionerCost FiberLinearization::preconditioner_cost() const {
   constexpr double slowness = 4.0;  // every number of the matrix comes from memory for a single use
-  double operations = 0.0;
+  double factorization = 0.0, use = 0.0;
   for (const auto& band : bands_) {
     const double size = band->block_size(), width = band->half_width();
-    operations += 2.0 * band->n_rows() * size * size * (2.0 * width + 1.0);
+    factorization += 2.0 * band->n_rows() * size * size * size * (width * width + 7.0 * width + 4.0);
+    use += slowness * 2.0 * band->n_rows() * size * size * (2.0 * width + 1.0);
   }
-  return evaluations_for(slowness * operations);
+  return {factorization / evaluation_operations_, use / evaluation_operations_,
+          near_sections_ < usual_near_sections ? narrow_iterations : 1.0};
 }
 
 void FiberLinearization::precondition(const ConstVectors& v, const Vectors& result) {
@@ -177,8 +176,8 @@ void FiberLinearization::precondition(const ConstVectors& v, const Vectors& resu
 
 std::string FiberLinearization::describe() const {
   return fmt::format(
-      "springs and near mobility of {} sections to either side, banded, factorized anew when it is worth it",
-      near_sections);
+      "springs and near mobility of {} section{} to either side, banded, factorized anew when it is worth it",
+      near_sections_, near_sections_ == 1 ? "" : "s");
 }
 
 }  // namespace skein

@@ -40,8 +40,8 @@ MethodSelection select(const Rkc2Options& options, const Physics& physics, Right
   if (!on_host<ExecSpace>)
     return select_explicit_method(options, radius, "the implicit method's factors would be the host's work");
   const Linearization* linearization = rhs.linearization();
-  return select_method(options, radius, linearization == nullptr ? 0.0 : linearization->factorization_cost(),
-                       linearization == nullptr ? -1.0 : linearization->preconditioning_cost());
+  if (linearization == nullptr) return select_explicit_method(options, radius, "there is no implicit method for this");
+  return select_method(options, radius, linearization->preconditioner_cost());
 }
 
 std::unique_ptr<Integrator> make_method(const TimeMethod method, const Rkc2Options& options, const Physics& physics,

@@ -49,20 +49,18 @@ MethodSelection select_explicit_method(const ControlOptions& options, const doub
   return {TimeMethod::rkc2, expect_step(options, spectral_radius).description + ", and " + why};
 }
 
-MethodSelection select_method(const ControlOptions& options, const double spectral_radius, const double factorization,
-                              const double preconditioning) {
-  if (preconditioning < 0.0)
-    return select_explicit_method(options, spectral_radius, "there is no implicit method for this");
+MethodSelection select_method(const ControlOptions& options, const double spectral_radius,
+                              const PreconditionerCost& preconditioner) {
   const bool is_fixed = options.fixed_step > 0.0;
   const double largest = largest_controlled_step(options);
   const auto [dt, stages, stiffness] = expect_step(options, spectral_radius);
   const double implicit_dt =
       is_fixed ? options.fixed_step
                : std::min(implicit_step_share * largest, trbdf2_largest_step_ratio * options.time_scale);
-  const double evaluations = implicit_evaluations(options, implicit_dt, spectral_radius);
+  const double evaluations = preconditioner.iterations * implicit_evaluations(options, implicit_dt, spectral_radius);
   // Each product is preconditioned, and so is the error of the step.
-  const double work =
-      evaluations + (evaluations + 1.0) * preconditioning + factorization / steps_between_factorizations;
+  const double work = evaluations + (evaluations + 1.0) * preconditioner.use +
+                      preconditioner.factorization / steps_between_factorizations;
   const double stabilized_rate = (stages + rkc2_radius_share) / dt, implicit_rate = work / implicit_dt;
   return {implicit_rate < preference * stabilized_rate ? TimeMethod::trbdf2 : TimeMethod::rkc2,
           fmt::format("{}, {:.0f} per unit of time; one of {:.3g} takes TR-BDF2 the work of {:.0f}, {:.0f} per unit of "

@@ -63,9 +63,10 @@ void TrBdf2::factorize(const double scale) {
 /// A new one where the step has changed much, or where the iterations that an older one costs more than a new one's
 /// would pay for it.
 void TrBdf2::update_preconditioner(const double scale) {
+  const PreconditionerCost cost = linearization_.preconditioner_cost();
   const double ratio = preconditioner_.scale > 0.0 ? scale / preconditioner_.scale : 0.0;
   if (ratio > max_scale_ratio || ratio * max_scale_ratio < 1.0 ||
-      preconditioner_.excess * (1.0 + linearization_.preconditioning_cost()) > linearization_.factorization_cost()) {
+      preconditioner_.excess * (1.0 + cost.use) > cost.factorization) {
     vectors_.copy(factorized_position_, start_);
     preconditioner_ = {scale, -1.0, 0.0, preconditioner_.number + 1};
     factorize(scale);

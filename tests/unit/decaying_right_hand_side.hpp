@@ -31,8 +31,7 @@ class DecayingRightHandSide final : public RightHandSide, public Linearization {
     ++factorizations;
     return true;
   }
-  double factorization_cost() const override { return 3.0; }
-  double preconditioning_cost() const override { return 0.5; }
+  PreconditionerCost preconditioner_cost() const override { return {3.0, 0.5}; }
   /// Half of what it should know: GMRES has something left to do.
   void precondition(const ConstVectors& v, const Vectors& result) override {
     scale(v, result, [&](const double rate) { return 1.0 / (1.0 + 0.5 * factor_ * rate); });

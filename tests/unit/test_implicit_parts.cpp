@@ -86,8 +86,7 @@ class DenseLinearization final : public Linearization {
     Kokkos::deep_copy(result, to_device("y", out));
   }
   bool factorize(const ConstVectors&, double) override { return true; }
-  double factorization_cost() const override { return 0.0; }
-  double preconditioning_cost() const override { return 0.0; }
+  PreconditionerCost preconditioner_cost() const override { return {}; }
   void precondition(const ConstVectors& v, const Vectors& result) override { Kokkos::deep_copy(result, v); }
   std::string describe() const override { return "none"; }
 
@@ -207,10 +206,14 @@ ControlOptions make_options(const double tolerance) {
 
 TEST(MethodSelection, FollowsTheStiffness) {
   const ControlOptions options = make_options(1e-3);
-  EXPECT_EQ(select_method(options, 1e2, 60.0, 0.5).method, TimeMethod::rkc2);
-  EXPECT_EQ(select_method(options, 1e6, 60.0, 0.5).method, TimeMethod::trbdf2);
-  EXPECT_EQ(select_method(options, 1e6, 0.0, -1.0).method, TimeMethod::rkc2);  // nothing implicit to choose
-  EXPECT_NE(select_method(options, 1e6, 60.0, 0.5).reason.find("1e+06"), std::string::npos);
+  EXPECT_EQ(select_method(options, 1e2, {60.0, 0.5}).method, TimeMethod::rkc2);
+  EXPECT_EQ(select_method(options, 1e6, {60.0, 0.5}).method, TimeMethod::trbdf2);
+  // What the matrix takes is weighed, and how much more often a poorer one is used.
+  EXPECT_EQ(select_method(options, 1e4, {60.0, 0.5}).method, TimeMethod::trbdf2);
+  EXPECT_EQ(select_method(options, 1e4, {60.0, 4.0}).method, TimeMethod::rkc2);
+  EXPECT_EQ(select_method(options, 1e4, {60.0, 0.5, 4.0}).method, TimeMethod::rkc2);
+  EXPECT_EQ(select_explicit_method(options, 1e6, "nothing else is there").method, TimeMethod::rkc2);
+  EXPECT_NE(select_method(options, 1e6, {60.0, 0.5}).reason.find("1e+06"), std::string::npos);
 }
 
 // Where the other method was measured to take more than 1.5 times the processor time.
@@ -236,7 +239,7 @@ TEST(MethodSelection, AgreesWithWhatWasMeasured) {
     ControlOptions options = make_options(row.tolerance);
     options.length_scale = row.length;
     options.detail_scale = row.spacing;
-    const auto selection = select_method(options, row.spectral_radius, row.factorization, row.preconditioning);
+    const auto selection = select_method(options, row.spectral_radius, {row.factorization, row.preconditioning});
     EXPECT_EQ(selection.method, row.method) << row.length << ", " << row.tolerance << ": " << selection.reason;
   }
 }

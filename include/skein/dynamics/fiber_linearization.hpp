@@ -15,8 +15,8 @@ namespace skein {
 class BlockBand;
 
 /// A = M(x) dF/dx of fibers. Its preconditioner keeps the mobility between sections that are near each other on a
-/// fiber, tapered, as a banded matrix factorized on the host; with every section's frame it turns, so that it serves
-/// while the fiber rotates and bends on.
+/// fiber, fewer where sums are cheap, tapered, as a banded matrix factorized on the host; with every section's frame it
+/// turns, so that it serves while the fiber rotates and bends on.
 class FiberLinearization final : public Linearization {
  public:
   /// Overwrites result with M(position) dF/dx(time, position) displacement.
@@ -35,8 +35,7 @@ class FiberLinearization final : public Linearization {
   void set_position(double time, const ConstVectors& position) override;
   void multiply(const ConstVectors& v, const Vectors& result) override;
   bool factorize(const ConstVectors& position, double scale) override;
-  double factorization_cost() const override;
-  double preconditioning_cost() const override;
+  PreconditionerCost preconditioner_cost() const override;
   void precondition(const ConstVectors& v, const Vectors& result) override;
   std::string describe() const override;
 
@@ -47,7 +46,6 @@ class FiberLinearization final : public Linearization {
   };
   std::vector<Frame> make_frames(const std::vector<Vec3>& position) const;
   void update_turns();
-  double evaluations_for(const double operations) const { return operations / evaluation_operations_; }
 
   std::vector<Fiber> fibers_;
   std::vector<SpringNetwork> networks_;
@@ -55,7 +53,7 @@ class FiberLinearization final : public Linearization {
   Product product_;
   VectorsOf vectors_of_;
   std::shared_ptr<const NodeSymmetry> symmetry_;
-  int n_nodes_;
+  int n_nodes_, near_sections_;
   double evaluation_operations_;  ///< of a velocity
   double time_ = 0.0;
   Vectors position_;

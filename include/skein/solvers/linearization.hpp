@@ -6,6 +6,15 @@
 
 namespace skein {
 
+/// What a preconditioner takes, in evaluations: properties of the size of things, not of clocks, so that what is
+/// decided by them is decided alike in every run.
+struct PreconditionerCost {
+  double factorization = 0.0;
+  double use = 0.0;  ///< of the inverse, once
+  double iterations =
+      1.0;  ///< over those with the preconditioner for which select_method expects as many as were measured
+};
+
 /// The stiff part A of d velocity / d position, for linearly implicit integrators: what is slow may be missing from it.
 /// One call at a time, with arrays of the right-hand side's vectors() or with whole ones, but not both in one.
 class Linearization : public LinearOperator {
@@ -20,10 +29,7 @@ class Linearization : public LinearOperator {
   /// other positions. @param scale  >= 0, time. @returns false where there is none
   virtual bool factorize(const ConstVectors& position, double scale) = 0;
 
-  /// What that costs, and what one use of the inverse does, in evaluations. Properties of the size of things, not of
-  /// clocks, so that what is decided by them is decided alike in every run.
-  virtual double factorization_cost() const = 0;
-  virtual double preconditioning_cost() const = 0;
+  virtual PreconditionerCost preconditioner_cost() const = 0;
 
   /// One line: what the preconditioner is.
   virtual std::string describe() const = 0;

@@ -2,6 +2,7 @@
 
 #include <skein/core/time_method.hpp>
 #include <skein/solvers/control_options.hpp>
+#include <skein/solvers/linearization.hpp>
 
 #include <string>
 
@@ -13,11 +14,9 @@ struct MethodSelection {
   std::string reason;  ///< one line with the numbers that decided
 };
 
-/// @param spectral_radius    1 / time
-/// @param factorization      of the linearization's preconditioner, in evaluations, as the next
-/// @param preconditioning    once; negative where there is no linearization
-MethodSelection select_method(const ControlOptions& options, double spectral_radius, double factorization,
-                              double preconditioning);
+/// @param spectral_radius  1 / time
+MethodSelection select_method(const ControlOptions& options, double spectral_radius,
+                              const PreconditionerCost& preconditioner);
 
 /// RKC2, whatever the stiffness. @param why  completes "..., and ..." behind what its steps take
 MethodSelection select_explicit_method(const ControlOptions& options, double spectral_radius, const std::string& why);
