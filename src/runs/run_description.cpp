@@ -9,7 +9,6 @@
 #include <skein/physics/mobility_choice.hpp>
 #include <skein/physics/scene_times.hpp>
 #include <skein/scene/words.hpp>
-#include <skein/solvers/rkc2_stages.hpp>
 
 #include "runs/expected_output.hpp"
 #include "runs/scene_summary.hpp"
@@ -22,31 +21,6 @@
 
 namespace skein {
 namespace {
-
-/// The largest step that a run is expected to take: for error control that never finds the fiber at rest, with the
-/// local error of a rigid turn, (dt / time scale)^2 / 30 of the length per time scale.
-double expect_largest_step(const TimeConfig& time, const double time_scale) {
-  if (time.step > 0.0) return time.step;
-  return std::min(time.max_step, std::sqrt(30.0 * time.tolerance * time_scale) * time_scale);
-}
-
-/// Evaluations a run will take, roughly. That of RKC2 serves for the methods that are chosen where they take less.
-double expect_evaluations(const SceneConfig& scene, const double time_scale, const double spectral_radius) {
-  const TimeConfig time = resolve_time(scene.time, time_scale);
-  const double dt = expect_largest_step(time, time_scale), duration = time.end - time.start;
-  switch (time.method) {
-    case TimeMethod::euler:
-      return duration / dt;
-    case TimeMethod::rk4:
-    case TimeMethod::bs3:
-      return 4.0 * duration * std::max(1.0 / dt, spectral_radius / 2.5);
-    case TimeMethod::automatic:
-    case TimeMethod::rkc2:
-    case TimeMethod::trbdf2:
-      return duration / dt * count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
-  }
-  throw Error(ExitCode::internal, "expect_evaluations knows no such method");
-}
 
 /// "to t = 12", with the start where that is not 0
 std::string describe_span(const SceneConfig& scene) {
@@ -96,25 +70,23 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
 }
 
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const std::string& integrator, const EvaluationCost& cost, const double spectral_radius,
+                         const Integrator& integrator, const EvaluationCost& cost, const double spectral_radius,
                          const std::size_t checkpoint_bytes) {
-  const double time_scale = find_time_scale(scene);
-  const double evaluations = expect_evaluations(scene, time_scale, spectral_radius);
+  const ExpectedStep step = integrator.expect_step(spectral_radius);
+  const double n_steps = (scene.time.end - scene.time.start) / step.dt;
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_threads(scene) + '\n' + describe_scene(scene);
   if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
   text += fmt::format("flow: {}\nmobility: {}\ntime: {}, {}\n", summarize_flow(scene.flows).description,
-                      describe_choice(choose_mobility(scene), scene), integrator, describe_span(scene));
+                      describe_choice(choose_mobility(scene), scene), integrator.describe(), describe_span(scene));
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);
-  const Expectation expectation{
-      (scene.time.end - scene.time.start) / expect_largest_step(resolve_time(scene.time, time_scale), time_scale),
-      evaluations * cost.seconds, checkpoint_bytes};
+  const Expectation expectation{n_steps, n_steps * step.work * cost.seconds, checkpoint_bytes};
   text += fmt::format(
       "cost: {:.3g} ms an evaluation, wall time beside what else this machine does now; roughly {:.2g} evaluations, "
       "{}; {}",
-      1e3 * cost.seconds, evaluations, format_duration(expectation.seconds),
+      1e3 * cost.seconds, n_steps * step.evaluations, format_duration(expectation.seconds),
       describe_expected_output(scene, fibers, expectation));
   const double product = scene.time.step * spectral_radius;
   if (scene.time.method == TimeMethod::euler && product > 2.0)

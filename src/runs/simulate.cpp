@@ -41,7 +41,7 @@ std::string describe_dry_run(const SceneConfig& scene) {
   visit_memory(size, state);
   integrator->visit_memory(size);
   const EvaluationCost cost = time_evaluation(dynamics, position);
-  return describe_run(scene, physics.fibers, physics.describe_forces(), integrator->describe(), cost,
+  return describe_run(scene, physics.fibers, physics.describe_forces(), *integrator, cost,
                       find_spectral_radius(scene, dynamics, scene.time.start, position), size.bytes());
 }
 

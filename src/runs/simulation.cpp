@@ -81,7 +81,7 @@ void Simulation::introduce() {
   physics_.mobility->take_messages();
   ledger_.exclude_evaluations();
   if (team_ != nullptr) cost.direct_seconds /= team_->ranks().size();
-  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), cost, radius,
+  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), *integrator_, cost, radius,
                    checkpoints_.checkpoint_bytes()));
   if (team_ != nullptr) say(describe_ranks(*team_));
 }

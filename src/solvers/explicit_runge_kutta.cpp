@@ -1,5 +1,6 @@
 #include <skein/solvers/explicit_runge_kutta.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace skein {
@@ -54,6 +55,13 @@ ControlledIntegrator::Attempt ExplicitRungeKutta::attempt(const double time, con
     if (error[stage] != 0.0)
       vectors_.combine(scratch_, {{1.0, scratch_}, {error[stage] * dt, stage_velocity_[stage - 1]}});
   return {measure_error(scratch_, dt), static_cast<int>(n_stages), ""};
+}
+
+ExpectedStep ExplicitRungeKutta::expect_step(const double spectral_radius) const {
+  // Rejected attempts among them; the controller keeps away from the edge of stability, 2.5 and 2.8.
+  constexpr double evaluations = 4.0, stability = 1.5;
+  const double dt = options_.fixed_step > 0.0 ? options_.fixed_step : largest_step();
+  return {std::min(dt, stability / spectral_radius), evaluations, evaluations};
 }
 
 }  // namespace skein

@@ -27,45 +27,49 @@ double implicit_evaluations(const ControlOptions& options, const double dt, cons
          (1.0 + 6.0 * turn * turn);
 }
 
-/// What a step of RKC2 is expected to be, and to take.
-struct StabilizedStep {
-  double dt, stages;
-  std::string description;
-};
-
-StabilizedStep expect_step(const ControlOptions& options, const double spectral_radius) {
-  const double dt = options.fixed_step > 0.0 ? options.fixed_step : rkc2_step_share * largest_controlled_step(options);
-  const double stages = count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
-  return {dt, stages,
-          fmt::format(
-              "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
-              spectral_radius, spectral_radius * options.time_scale, dt, stages)};
+/// In words, for the reason of a choice.
+std::string describe_stiffness(const ControlOptions& options, const double spectral_radius, const ExpectedStep& step) {
+  return fmt::format(
+      "spectral radius {:.3g} = {:.3g} per shear time; a step of {:.3g} takes RKC2 about {:.0f} evaluations",
+      spectral_radius, spectral_radius * options.time_scale, step.dt, step.evaluations);
 }
 
 }  // namespace
 
+ExpectedStep expect_stabilized_step(const ControlOptions& options, const double spectral_radius) {
+  const double dt = options.fixed_step > 0.0 ? options.fixed_step : rkc2_step_share * largest_controlled_step(options);
+  const double stages = count_rkc2_stages(dt, rkc2_spectral_margin * spectral_radius);
+  return {dt, stages, stages + rkc2_radius_share};
+}
+
+ExpectedStep expect_implicit_step(const ControlOptions& options, const double spectral_radius,
+                                  const PreconditionerCost& preconditioner) {
+  const double dt = options.fixed_step > 0.0 ? options.fixed_step
+                                             : std::min(implicit_step_share * largest_controlled_step(options),
+                                                        trbdf2_largest_step_ratio * options.time_scale);
+  const double evaluations = preconditioner.iterations * implicit_evaluations(options, dt, spectral_radius);
+  // Each product is preconditioned, and so is the error of the step.
+  return {dt, evaluations,
+          evaluations + (evaluations + 1.0) * preconditioner.use +
+              preconditioner.factorization / steps_between_factorizations};
+}
+
 MethodSelection select_explicit_method(const ControlOptions& options, const double spectral_radius,
                                        const std::string& why) {
-  return {TimeMethod::rkc2, expect_step(options, spectral_radius).description + ", and " + why};
+  const ExpectedStep step = expect_stabilized_step(options, spectral_radius);
+  return {TimeMethod::rkc2, describe_stiffness(options, spectral_radius, step) + ", and " + why};
 }
 
 MethodSelection select_method(const ControlOptions& options, const double spectral_radius,
                               const PreconditionerCost& preconditioner) {
-  const bool is_fixed = options.fixed_step > 0.0;
-  const double largest = largest_controlled_step(options);
-  const auto [dt, stages, stiffness] = expect_step(options, spectral_radius);
-  const double implicit_dt =
-      is_fixed ? options.fixed_step
-               : std::min(implicit_step_share * largest, trbdf2_largest_step_ratio * options.time_scale);
-  const double evaluations = preconditioner.iterations * implicit_evaluations(options, implicit_dt, spectral_radius);
-  // Each product is preconditioned, and so is the error of the step.
-  const double work = evaluations + (evaluations + 1.0) * preconditioner.use +
-                      preconditioner.factorization / steps_between_factorizations;
-  const double stabilized_rate = (stages + rkc2_radius_share) / dt, implicit_rate = work / implicit_dt;
+  const ExpectedStep stabilized = expect_stabilized_step(options, spectral_radius);
+  const ExpectedStep implicit = expect_implicit_step(options, spectral_radius, preconditioner);
+  const double stabilized_rate = stabilized.work / stabilized.dt, implicit_rate = implicit.work / implicit.dt;
   return {implicit_rate < preference * stabilized_rate ? TimeMethod::trbdf2 : TimeMethod::rkc2,
           fmt::format("{}, {:.0f} per unit of time; one of {:.3g} takes TR-BDF2 the work of {:.0f}, {:.0f} per unit of "
                       "time",
-                      stiffness, stabilized_rate, implicit_dt, work, implicit_rate)};
+                      describe_stiffness(options, spectral_radius, stabilized), stabilized_rate, implicit.dt,
+                      implicit.work, implicit_rate)};
 }
 
 }  // namespace skein

@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/solvers/method_selection.hpp>
 #include <skein/solvers/rkc2.hpp>
 #include <skein/solvers/rkc2_stages.hpp>
 
@@ -124,6 +125,10 @@ void Rkc2::visit_memory(MemoryVisitor& visitor) {
   visitor.count("RKC2.steps_since_refresh", steps_since_refresh_);
   visitor.number("RKC2.spectral_radius", spectral_radius_);
   power_iteration_.visit_memory(visitor);
+}
+
+ExpectedStep Rkc2::expect_step(const double spectral_radius) const {
+  return expect_stabilized_step(options_, spectral_radius);
 }
 
 }  // namespace skein

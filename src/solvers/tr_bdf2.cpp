@@ -1,4 +1,5 @@
 #include <skein/core/error.hpp>
+#include <skein/solvers/method_selection.hpp>
 #include <skein/solvers/tr_bdf2.hpp>
 
 #include <fmt/format.h>
@@ -174,6 +175,10 @@ void TrBdf2::visit_memory(MemoryVisitor& visitor) {
   visitor.integer("TR-BDF2.factorizations", preconditioner_.number);
   visitor.node_vectors("TR-BDF2.factorized_position", vectors_, factorized_position_);
   visitor.node_vectors("TR-BDF2.acceleration", vectors_, is_next_ready_ ? next_acceleration_ : acceleration_);
+}
+
+ExpectedStep TrBdf2::expect_step(const double spectral_radius) const {
+  return expect_implicit_step(options_, spectral_radius, linearization_.preconditioner_cost());
 }
 
 std::string TrBdf2::describe() const {

@@ -1,7 +1,8 @@
-// What a sum over fibers' nodes is expected to cost, and what is chosen by it.
+// What a sum over fibers' nodes and a step are expected to cost, and what is chosen by it.
 #include <skein/arrays/default_path.hpp>
 #include <skein/dynamics/fiber_dynamics.hpp>
 #include <skein/dynamics/make_integrator.hpp>
+#include <skein/dynamics/spectral_radius_at.hpp>
 #include <skein/fmm/fmm_cost.hpp>
 #include <skein/fmm/machine_rates.hpp>
 #include <skein/physics/direct_mobility.hpp>
@@ -122,6 +123,36 @@ TEST(SumCost, DecidesBetweenMethodsOfTimeIntegration) {
   SceneConfig stiff = make_scene(301, SumMethod::fmm);
   stiff.fibers.front().spring_stiffness *= 100.0;
   EXPECT_EQ(chosen_for(stiff), TimeMethod::trbdf2);
+}
+
+/// Of a fiber that turns over, after its first steps: about.
+TEST(ExpectedSteps, AreThoseOfARun) {
+  for (const TimeMethod method :
+       {TimeMethod::euler, TimeMethod::rk4, TimeMethod::bs3, TimeMethod::rkc2, TimeMethod::trbdf2}) {
+    SceneConfig scene = make_scene(28, SumMethod::direct);
+    scene.fibers.front().nodes_per_section = 6;
+    scene.time.method = method;
+    scene.time.tolerance = 1e-4;
+    if (method == TimeMethod::euler) scene.time.step = 1e-3;
+    Physics physics = make_physics(scene);
+    FiberDynamics dynamics(physics);
+    const auto integrator = make_integrator(scene, physics, dynamics);
+    State state{0.0, 0, to_device("position", physics.make_start_nodes(1))};
+    const double radius = find_spectral_radius_at(physics, dynamics, 0.0, state.position, 1, rough_radius);
+    const ExpectedStep expected = integrator->expect_step(radius);
+    while (state.time < 1.0) integrator->advance(state, 3.0);
+    const std::int64_t steps = state.step, evaluations = dynamics.evaluations();
+    const double start = state.time;
+    while (state.time < 3.0) integrator->advance(state, 3.0);
+    const auto n_steps = static_cast<double>(state.step - steps);
+    const auto n_evaluations = static_cast<double>(dynamics.evaluations() - evaluations);
+    const double factor = method == TimeMethod::euler ? 1.01 : 2.5;
+    EXPECT_LT((3.0 - start) / n_steps, factor * expected.dt) << static_cast<int>(method);
+    EXPECT_GT((3.0 - start) / n_steps, expected.dt / factor) << static_cast<int>(method);
+    EXPECT_LT(n_evaluations / n_steps, factor * expected.evaluations) << static_cast<int>(method);
+    EXPECT_GT(n_evaluations / n_steps, expected.evaluations / factor) << static_cast<int>(method);
+    EXPECT_GE(expected.work, expected.evaluations);
+  }
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ class Euler final : public Integrator {
   void interpolate(double time, const Vectors& position) const override;
   void visit_memory(MemoryVisitor& visitor) override;
   TimeMethod method() const override { return TimeMethod::euler; }
+  ExpectedStep expect_step(double /*spectral_radius*/) const override { return {dt_}; }
   std::string describe() const override;
 
  private:

@@ -31,6 +31,7 @@ class ExplicitRungeKutta final : public ControlledIntegrator {
   ExplicitRungeKutta(RightHandSide& rhs, const ControlOptions& options, RungeKuttaTableau tableau, int n_nodes);
 
   TimeMethod method() const override { return tableau_.method; }
+  ExpectedStep expect_step(double spectral_radius) const override;
 
  private:
   Attempt attempt(double time, double dt) override;

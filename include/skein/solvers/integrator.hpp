@@ -3,6 +3,7 @@
 #include <skein/arrays/memory_snapshot.hpp>
 #include <skein/core/time_method.hpp>
 #include <skein/solvers/right_hand_side.hpp>
+#include <skein/solvers/step_costs.hpp>
 
 #include <cstdint>
 #include <string>
@@ -48,6 +49,9 @@ class Integrator {
 
   /// What a scene calls this method; of an integrator that was chosen, the one that was.
   virtual TimeMethod method() const = 0;
+
+  /// About, where the equations are as stiff as that. @param spectral_radius  1 / time
+  virtual ExpectedStep expect_step(double spectral_radius) const = 0;
 
   /// One line for the first lines of a run.
   virtual std::string describe() const = 0;

@@ -1,19 +1,11 @@
 #pragma once
 
 #include <skein/solvers/linear_operator.hpp>
+#include <skein/solvers/step_costs.hpp>
 
 #include <string>
 
 namespace skein {
-
-/// What a preconditioner takes, in evaluations: properties of the size of things, not of clocks, so that what is
-/// decided by them is decided alike in every run.
-struct PreconditionerCost {
-  double factorization = 0.0;
-  double use = 0.0;  ///< of the inverse, once
-  double iterations =
-      1.0;  ///< over those with the preconditioner for which select_method expects as many as were measured
-};
 
 /// The stiff part A of d velocity / d position, for linearly implicit integrators: what is slow may be missing from it.
 /// One call at a time, with arrays of the right-hand side's vectors() or with whole ones, but not both in one.

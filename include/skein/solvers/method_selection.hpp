@@ -2,7 +2,7 @@
 
 #include <skein/core/time_method.hpp>
 #include <skein/solvers/control_options.hpp>
-#include <skein/solvers/linearization.hpp>
+#include <skein/solvers/step_costs.hpp>
 
 #include <string>
 
@@ -14,7 +14,11 @@ struct MethodSelection {
   std::string reason;  ///< one line with the numbers that decided
 };
 
-/// @param spectral_radius  1 / time
+/// Of RKC2 and of TR-BDF2. @param spectral_radius  1 / time
+ExpectedStep expect_stabilized_step(const ControlOptions& options, double spectral_radius);
+ExpectedStep expect_implicit_step(const ControlOptions& options, double spectral_radius,
+                                  const PreconditionerCost& preconditioner);
+
 MethodSelection select_method(const ControlOptions& options, double spectral_radius,
                               const PreconditionerCost& preconditioner);
 

@@ -20,6 +20,7 @@ class Rkc2 final : public ControlledIntegrator {
 
   void visit_memory(MemoryVisitor& visitor) override;
   TimeMethod method() const override { return TimeMethod::rkc2; }
+  ExpectedStep expect_step(double spectral_radius) const override;
 
  private:
   Attempt attempt(double time, double dt) override;

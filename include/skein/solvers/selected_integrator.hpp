@@ -19,6 +19,9 @@ class SelectedIntegrator final : public Integrator {
   }
   void visit_memory(MemoryVisitor& visitor) override { integrator_->visit_memory(visitor); }
   TimeMethod method() const override { return integrator_->method(); }
+  ExpectedStep expect_step(const double spectral_radius) const override {
+    return integrator_->expect_step(spectral_radius);
+  }
   std::string describe() const override { return integrator_->describe() + "\n  chosen automatically: " + reason_; }
 
  private:

@@ -19,6 +19,7 @@ class TrBdf2 final : public ControlledIntegrator {
 
   void visit_memory(MemoryVisitor& visitor) override;
   TimeMethod method() const override { return TimeMethod::trbdf2; }
+  ExpectedStep expect_step(double spectral_radius) const override;
   std::string describe() const override;
 
  private:
