@@ -196,5 +196,7 @@ SKEIN_INSTANTIATE(double, double, TailField)
 SKEIN_INSTANTIATE(double, float, TailField)
 SKEIN_INSTANTIATE_FIELD(StokesletField)
 SKEIN_INSTANTIATE_FIELD(RegularizedField)
+#undef SKEIN_INSTANTIATE_FIELD
+#undef SKEIN_INSTANTIATE  // device builds read several of these sources as one
 
 }  // namespace skein

@@ -103,5 +103,6 @@ double bytes_of(const OperatorSet<Real>& set) {
   template double bytes_of(const OperatorSet<Real>&);
 SKEIN_INSTANTIATE(double)
 SKEIN_INSTANTIATE(float)
+#undef SKEIN_INSTANTIATE  // device builds read several of these sources as one
 
 }  // namespace skein
