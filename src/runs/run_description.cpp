@@ -70,15 +70,14 @@ TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& sc
 }
 
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const Integrator& integrator, const EvaluationCost& cost, const double spectral_radius,
-                         const std::size_t checkpoint_bytes) {
-  const ExpectedStep step = integrator.expect_step(spectral_radius);
+                         const std::string& integrator, const Prospect& prospect) {
+  const auto& [cost, spectral_radius, step, checkpoint_bytes] = prospect;
   const double n_steps = (scene.time.end - scene.time.start) / step.dt;
   std::string text = fmt::format("skein {} ({}) on {}\n", version(), commit(), describe_backend());
   text += describe_threads(scene) + '\n' + describe_scene(scene);
   if (!forces.empty()) text += fmt::format("forces: {}\n", forces);
   text += fmt::format("flow: {}\nmobility: {}\ntime: {}, {}\n", summarize_flow(scene.flows).description,
-                      describe_choice(choose_mobility(scene), scene), integrator.describe(), describe_span(scene));
+                      describe_choice(choose_mobility(scene), scene), integrator, describe_span(scene));
   if (cost.direct_seconds > 0.0)
     text += fmt::format("a direct sum would take about {:.3g} ms, {:.1f} times as long\n", 1e3 * cost.direct_seconds,
                         cost.direct_seconds / cost.seconds);

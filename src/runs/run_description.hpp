@@ -3,7 +3,7 @@
 #include <skein/fibers/fiber.hpp>
 #include <skein/io/trajectory.hpp>
 #include <skein/scene/scene_config.hpp>
-#include <skein/solvers/integrator.hpp>
+#include <skein/solvers/step_costs.hpp>
 
 #include "runs/evaluation_cost.hpp"
 
@@ -17,12 +17,17 @@ namespace skein {
 TrajectoryLayout describe_layout(const SceneConfig& scene, const std::string& scene_text,
                                  const std::vector<Fiber>& fibers);
 
+/// What is found out of a run before its first step.
+struct Prospect {
+  EvaluationCost cost;
+  double spectral_radius = 0.0;  ///< at the start, 1 / time; not finite: not known
+  ExpectedStep step;
+  std::size_t checkpoint_bytes = 0;  ///< of one checkpoint
+};
+
 /// A run's first lines: version, device, size, methods and why, what it will take.
-/// @param spectral_radius   at the start, 1 / time; not finite: not known
-/// @param forces            as they describe themselves, beside the springs; empty where there are none
-/// @param checkpoint_bytes  of one checkpoint
+/// @param forces, integrator  as they describe themselves; forces beside the springs, empty where there are none
 std::string describe_run(const SceneConfig& scene, const std::vector<Fiber>& fibers, const std::string& forces,
-                         const Integrator& integrator, const EvaluationCost& cost, double spectral_radius,
-                         std::size_t checkpoint_bytes);
+                         const std::string& integrator, const Prospect& prospect);
 
 }  // namespace skein

@@ -40,9 +40,12 @@ std::string describe_dry_run(const SceneConfig& scene) {
   MemorySize size;
   visit_memory(size, state);
   integrator->visit_memory(size);
-  const EvaluationCost cost = time_evaluation(dynamics, position);
-  return describe_run(scene, physics.fibers, physics.describe_forces(), *integrator, cost,
-                      find_spectral_radius(scene, dynamics, scene.time.start, position), size.bytes());
+  Prospect prospect;
+  prospect.cost = time_evaluation(dynamics, position);
+  prospect.spectral_radius = find_spectral_radius(scene, dynamics, scene.time.start, position);
+  prospect.step = integrator->expect_step(prospect.spectral_radius);
+  prospect.checkpoint_bytes = size.bytes();
+  return describe_run(scene, physics.fibers, physics.describe_forces(), integrator->describe(), prospect);
 }
 
 }  // namespace skein

@@ -68,12 +68,14 @@ void Simulation::introduce() {
   // Evaluations that only measure their cost leave no trace.
   MemorySnapshot before;
   before.take(dynamics_);
-  EvaluationCost cost;
-  double radius = std::numeric_limits<double>::quiet_NaN();
+  Prospect prospect;
+  EvaluationCost& cost = prospect.cost;
+  prospect.spectral_radius = std::numeric_limits<double>::quiet_NaN();
+  prospect.checkpoint_bytes = checkpoints_.checkpoint_bytes();
   try {
     cost = time_evaluation(dynamics_, state_.position);
     ledger_.parts().direct_sums_each = cost.direct_seconds;
-    radius = find_spectral_radius(scene_, dynamics_, state_.time, state_.position);
+    prospect.spectral_radius = find_spectral_radius(scene_, dynamics_, state_.time, state_.position);
   } catch (const Error& error) {  // the first step meets it, too, and there is a checkpoint then
     if (error.code() != ExitCode::numerical) throw;
   }
@@ -81,8 +83,8 @@ void Simulation::introduce() {
   physics_.mobility->take_messages();
   ledger_.exclude_evaluations();
   if (team_ != nullptr) cost.direct_seconds /= team_->ranks().size();
-  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), *integrator_, cost, radius,
-                   checkpoints_.checkpoint_bytes()));
+  prospect.step = integrator_->expect_step(prospect.spectral_radius);
+  say(describe_run(scene_, physics_.fibers, physics_.describe_forces(), integrator_->describe(), prospect));
   if (team_ != nullptr) say(describe_ranks(*team_));
 }
 
