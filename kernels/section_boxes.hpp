@@ -3,6 +3,8 @@
 #include <skein/arrays/launch.hpp>
 #include <skein/arrays/types.hpp>
 
+#include "kernels/index_range.hpp"
+
 namespace skein {
 
 /// Sections of a fiber that share a box: a block of them.
@@ -43,16 +45,26 @@ struct SectionBoxes {
   VectorView<Space> fiber_low, fiber_high;  ///< [n_fibers, 3], length
 };
 
+template <class Space>
+IndexRange all_blocks(const SectionBoxes<Space>& boxes) {
+  return {0, boxes.fiber_of_block.extent_int(0)};
+}
+
 /// A loop over the places of all blocks, some of which are behind their fiber's last section.
 template <class Space>
 Calls section_calls(const SectionBoxes<Space>& boxes) {
   return {boxes.fiber_of_block.extent_int(0) * sections_per_block, 30.0};
 }
 
-/// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
+/// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3]: of the
+/// sections of some blocks.
 template <class Space>
-void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& vector,
-                           const VectorView<Space>& mean);
+void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes, IndexRange blocks,
+                           const ConstVectorView<Space>& vector, const VectorView<Space>& mean);
+
+/// Overwrites boxes with those of the centroids.
+template <class Space>
+void enclose_sections(const Space& space, const SectionBoxes<Space>& boxes);
 
 /// Overwrites centroids and boxes with those of nodes at `position`, [n_nodes, 3].
 template <class Space>

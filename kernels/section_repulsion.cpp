@@ -45,7 +45,8 @@ struct ForceTerm {
 template <class Space>
 struct ChangeTerm {
   using Value = Vec3;
-  VectorView<Space> displacement, change;
+  ConstVectorView<Space> displacement;
+  VectorView<Space> change;
   KOKKOS_INLINE_FUNCTION Vec3 value(const SectionPair& pair) const {
     const double push = push_of(pair);
     if (push == 0.0) return {};
@@ -102,6 +103,7 @@ struct Gathering {
   SectionBoxes<Space> boxes;
   RepulsionLaw law;
   Term term;
+  int first_block;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int item) const {
     const int block = item / items_per_block;
@@ -115,8 +117,9 @@ struct Gathering {
   /// Of the block and those that follow it on its fiber.
   KOKKOS_INLINE_FUNCTION void gather_blocks(const int f, const int block) const {
     const FiberSections& fiber = boxes.fiber(f);
-    if ((block - fiber.first_block) % blocks_at_once != 0) return;
-    const int end_block = math::smaller(block + blocks_at_once, fiber.end_block());
+    const int behind = (block - fiber.first_block) % blocks_at_once;
+    if (behind != 0 && block != first_block) return;
+    const int end_block = math::smaller(block + blocks_at_once - behind, fiber.end_block());
     const int first = fiber.first_section_of(block);
     const double margin = law.range + fiber.radius;
     Vec3 low, high;
@@ -176,33 +179,34 @@ struct Gathering {
 
 template <class Space, class Term>
 void gather(const char* label, const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-            const Term& term) {
+            const IndexRange blocks, const Term& term) {
   using Kernel = Gathering<Space, Term>;
-  Kokkos::parallel_for(
-      label, Kokkos::RangePolicy<Space>(space, 0, boxes.fiber_of_block.extent_int(0) * Kernel::items_per_block),
-      Kernel{boxes, law, term});
+  constexpr int n = Kernel::items_per_block;
+  Kokkos::parallel_for(label, Kokkos::RangePolicy<Space>(space, blocks.first * n, (blocks.first + blocks.count) * n),
+                       Kernel{boxes, law, term, blocks.first});
 }
 
 }  // namespace
 
 template <class Space>
 void add_section_repulsion(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-                           const VectorView<Space>& force) {
-  gather("skein::add_section_repulsion", space, boxes, law, ForceTerm<Space>{force});
+                           const IndexRange blocks, const VectorView<Space>& force) {
+  gather("skein::add_section_repulsion", space, boxes, law, blocks, ForceTerm<Space>{force});
 }
 
 template <class Space>
 void add_section_repulsion_change(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-                                  const VectorView<Space>& displacement, const VectorView<Space>& change) {
+                                  const IndexRange blocks, const ConstVectorView<Space>& displacement,
+                                  const VectorView<Space>& change) {
   SKEIN_REQUIRE(displacement.extent(0) == boxes.centroid.extent(0), "one displacement for each section is needed");
-  gather("skein::add_section_repulsion_change", space, boxes, law, ChangeTerm<Space>{displacement, change});
+  gather("skein::add_section_repulsion_change", space, boxes, law, blocks, ChangeTerm<Space>{displacement, change});
 }
 
 template <class Space>
 void compute_repulsion_energy(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
                               const ScalarView<Space>& energy) {
   SKEIN_REQUIRE(energy.extent(0) == boxes.centroid.extent(0), "one energy for each section is needed");
-  gather("skein::compute_repulsion_energy", space, boxes, law, EnergyTerm<Space>{energy});
+  gather("skein::compute_repulsion_energy", space, boxes, law, all_blocks<Space>(boxes), EnergyTerm<Space>{energy});
 }
 
 template <class Space>
@@ -210,16 +214,18 @@ void compute_repulsion_moment(const Space& space, const SectionBoxes<Space>& box
                               const VectorView<Space>& diagonal, const VectorView<Space>& mixed) {
   SKEIN_REQUIRE(diagonal.extent(0) == boxes.centroid.extent(0) && mixed.extent(0) == diagonal.extent(0),
                 "one moment for each section is needed");
-  gather("skein::compute_repulsion_moment", space, boxes, law, MomentTerm<Space>{diagonal, mixed});
+  gather("skein::compute_repulsion_moment", space, boxes, law, all_blocks<Space>(boxes),
+         MomentTerm<Space>{diagonal, mixed});
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                           \
-  template void add_section_repulsion<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, const VectorView<S>&); \
-  template void add_section_repulsion_change<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                 \
-                                                const VectorView<S>&, const VectorView<S>&);                           \
-  template void compute_repulsion_energy<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                     \
-                                            const ScalarView<S>&);                                                     \
-  template void compute_repulsion_moment<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                     \
+#define SKEIN_INSTANTIATE(S)                                                                                       \
+  template void add_section_repulsion<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, IndexRange,        \
+                                         const VectorView<S>&);                                                    \
+  template void add_section_repulsion_change<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, IndexRange, \
+                                                const ConstVectorView<S>&, const VectorView<S>&);                  \
+  template void compute_repulsion_energy<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                 \
+                                            const ScalarView<S>&);                                                 \
+  template void compute_repulsion_moment<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                 \
                                             const VectorView<S>&, const VectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

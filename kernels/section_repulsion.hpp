@@ -20,17 +20,19 @@ struct RepulsionLaw {
 // All of them see the sections where locate_sections left them. Each section gathers over its near ones in a fixed
 // order; but for the rounding of its sum, what it has from a pair is the opposite of what the other has.
 
-/// Adds the repulsion to force, [n_nodes, 3]: a section's force in equal parts to its nodes. Two sections with
-/// coincident centroids do not push each other.
+/// Adds the repulsion on the sections of some blocks to force, [n_nodes, 3]: a section's force in equal parts to its
+/// nodes. Two sections with coincident centroids do not push each other. Other blocks of the fibers may get theirs,
+/// too.
 template <class Space>
 void add_section_repulsion(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-                           const VectorView<Space>& force);
+                           IndexRange blocks, const VectorView<Space>& force);
 
 /// Adds to change, [n_nodes, 3], the first-order change of those forces when centroids move by `displacement`,
 /// [n_sections, 3].
 template <class Space>
 void add_section_repulsion_change(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-                                  const VectorView<Space>& displacement, const VectorView<Space>& change);
+                                  IndexRange blocks, const ConstVectorView<Space>& displacement,
+                                  const VectorView<Space>& change);
 
 /// Overwrites energy, [n_sections], with half of the energy of each pair that a section is in.
 template <class Space>

@@ -20,12 +20,16 @@ double count_springs(const FiberConfig& fiber) {
 
 NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const ForceList& forces, const RankParts& owners) {
   int reach = 0;
+  bool sees_centroids = false;
   for (const auto& force : forces) {
     const int of_force = force->promises().reach;
     if (of_force == ForcePromises::everywhere) return {};
     reach = std::max(reach, of_force);
+    sees_centroids = sees_centroids || force->promises().sees_centroids;
   }
-  return find_needed_rows(fibers, reach, owners);
+  NeededRows needed = find_needed_rows(fibers, reach, owners);
+  if (sees_centroids) needed.sections = count_sections(fibers, owners);
+  return needed;
 }
 
 RankParts share_nodes(const std::vector<Fiber>& fibers, const int n_ranks) {
@@ -50,30 +54,31 @@ ForceShare::ForceShare(const SceneConfig& asked, const int n_ranks) {
   forces = make_forces(scene, fibers);
   flow = make_background_flow(scene.flows);
   nodes = share_nodes(fibers, n_ranks);
+  sections = std::make_unique<Sections>(fibers);
   needed = find_needed_rows(fibers, forces, nodes);
 }
 
 void ForceShare::compute(Communicator& ranks, const RankParts& nodes, const ForceList& forces, const double time,
                          const ConstVectors& position, const ConstVectors& displacement, const Vectors& force) {
-  compute_own(ranks, nodes, forces, time, position, displacement, force);
+  compute_own(ranks, nodes, forces, time, {position, {}, displacement, {}}, force);
   ranks.begin_work(RankWork::forces);
   gather_rows_to_all(ranks, nodes, force);
   ranks.end_work();
 }
 
 void ForceShare::compute_own(Communicator& ranks, const RankParts& nodes, const ForceList& forces, const double time,
-                             const ConstVectors& position, const ConstVectors& displacement, const Vectors& force) {
-  SKEIN_REQUIRE(force.extent(0) == nodes.total() && position.extent(0) == nodes.total(),
+                             const SeenNodes& seen, const Vectors& force) {
+  SKEIN_REQUIRE(force.extent(0) == nodes.total() && seen.position.extent(0) == nodes.total(),
                 "positions, forces and the nodes of the scene differ in number");
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const int first = static_cast<int>(nodes.first[rank]), n = static_cast<int>(nodes.count[rank]);
   ranks.begin_work(RankWork::forces);
   Kokkos::deep_copy(ExecSpace(), rows_of(force, nodes.first[rank], nodes.count[rank]), 0.0);
   for (const auto& part : forces)
-    if (displacement.is_allocated())
-      part->add_force_changes_on(first, n, time, position, displacement, force);
+    if (seen.displacement.is_allocated())
+      part->add_force_changes_on(first, n, time, seen, force);
     else
-      part->add_forces_on(first, n, time, position, force);
+      part->add_forces_on(first, n, time, seen, force);
   ranks.end_work();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/physics/background_flow.hpp>
+#include <skein/physics/sections.hpp>
 #include <skein/physics/sum_team.hpp>
 #include <skein/scene/scene_config.hpp>
 
@@ -21,6 +22,7 @@ struct ForceShare {
   RankParts nodes;
   NeededRows needed;
   std::unique_ptr<BackgroundFlow> flow;
+  std::unique_ptr<Sections> sections;
 
   explicit ForceShare(const SceneConfig& asked, int n_ranks);
 
@@ -31,7 +33,7 @@ struct ForceShare {
                       const ConstVectors& position, const ConstVectors& displacement, const Vectors& force);
   /// The same on this rank's nodes; others' rows stay as they are.
   static void compute_own(Communicator& ranks, const RankParts& nodes, const ForceList& forces, double time,
-                          const ConstVectors& position, const ConstVectors& displacement, const Vectors& force);
+                          const SeenNodes& seen, const Vectors& force);
 };
 
 /// By what the forces promise of their reach.

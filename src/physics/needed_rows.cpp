@@ -1,6 +1,7 @@
 #include "needed_rows.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace skein {
 namespace {
@@ -38,6 +39,18 @@ NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const int reach, c
     needed.end.push_back(end > first ? first_of_section(end - 1, reach + 1) : end);
   }
   return needed;
+}
+
+RankParts count_sections(const std::vector<Fiber>& fibers, const RankParts& owners) {
+  std::vector<std::size_t> count(owners.count.size());
+  std::size_t rank = 0;
+  for (const Fiber& fiber : fibers)
+    for (int section = 0; section < fiber.config.sections; ++section) {
+      const auto node = static_cast<std::size_t>(fiber.first_node + section * fiber.config.nodes_per_section);
+      while (node >= owners.first[rank] + owners.count[rank]) ++rank;
+      ++count[rank];
+    }
+  return RankParts::behind_each_other(std::move(count));
 }
 
 RowsInTransit list_rows_in_transit(const RankParts& owners, const NeededRows& needed, const int rank) {

@@ -113,6 +113,26 @@ void gather_needed_rows(Communicator& ranks, const RankParts& owners, const Need
   there.take(own_end - first, end - own_end);
 }
 
+Vectors gather_means(Communicator& ranks, const RankParts& owners, const RankParts& owned, const Sections& sections,
+                     const Vectors& vector, const RowAccess access) {
+  const auto rank = static_cast<std::size_t>(ranks.rank());
+  const Vectors mean("skein::gather_means::mean", owned.total());
+  sections.compute_means_on(static_cast<int>(owners.first[rank]), static_cast<int>(owners.count[rank]), vector, mean);
+  gather_rows_to_all(ranks, owned, mean, access);
+  return mean;
+}
+
+Vectors gather_for_forces(Communicator& ranks, const RankParts& owners, const NeededRows& needed,
+                          const Sections& sections, const bool is_local, const Vectors& part, const Vectors& whole) {
+  if (!is_local) {
+    gather_parts_to_all(ranks, owners, part, whole);
+    return {};
+  }
+  gather_needed_rows(ranks, owners, needed, part, whole);
+  if (needed.sections.count.empty()) return {};
+  return gather_means(ranks, owners, needed.sections, sections, whole);
+}
+
 double add_up_products(Communicator& ranks, const RankParts& owners, const Vectors& part, const Vectors& other,
                        const RowAccess access) {
   const int at_once = choose_dot_chunk<ExecSpace>(static_cast<int>(owners.total()));

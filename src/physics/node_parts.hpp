@@ -1,6 +1,7 @@
 #pragma once
 
 #include <skein/arrays/types.hpp>
+#include <skein/physics/sections.hpp>
 #include <skein/ranks/communicator.hpp>
 
 #include "needed_rows.hpp"
@@ -40,6 +41,17 @@ void scatter_parts(Communicator& ranks, const RankParts& owners, const Vectors& 
 /// 3], of which other rows stay as they are
 void gather_needed_rows(Communicator& ranks, const RankParts& owners, const NeededRows& needed, const Vectors& part,
                         const Vectors& whole, RowAccess access = RowAccess::as_needed);
+
+/// The same of the means of a vector over all sections' nodes. @param owned  sections, of each rank
+/// @param vector  [n_nodes, 3], of which this rank has its own rows  @returns [n_sections, 3]
+Vectors gather_means(Communicator& ranks, const RankParts& owners, const RankParts& owned, const Sections& sections,
+                     const Vectors& vector, RowAccess access = RowAccess::as_needed);
+
+/// Of an array whose parts ranks have, what the forces on their own nodes need of it: in `whole` all rows, or of a
+/// local one the rows that are needed. @returns means over sections, where forces see those and `whole` has not all;
+/// else none
+Vectors gather_for_forces(Communicator& ranks, const RankParts& owners, const NeededRows& needed,
+                          const Sections& sections, bool is_local, const Vectors& part, const Vectors& whole);
 
 /// The same of two arrays' dot product: with the bits of dot_product of the whole arrays.
 /// @returns it on rank 0, 0 on others

@@ -28,21 +28,45 @@ ForcePromises SectionRepulsion::promises() const {
           .is_conservative = true,
           .is_steady = true,
           .is_frame_indifferent = true,
-          .acts_between_fibers = true};
+          .acts_between_fibers = true,
+          .reach = 0,
+          .sees_centroids = true};
 }
 
-void SectionRepulsion::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {
-  SKEIN_REQUIRE(force.extent(0) == position.extent(0), "one force for each position");
-  add_section_repulsion<ExecSpace>(ExecSpace(), sections_.locate(position), {strength_, range_}, force);
+void SectionRepulsion::add_forces(const double time, const ConstVectors& position, const Vectors& force) const {
+  add_forces_on(0, position.extent_int(0), time, {position, {}, {}, {}}, force);
 }
 
-void SectionRepulsion::add_force_changes(double /*time*/, const ConstVectors& position,
+void SectionRepulsion::add_force_changes(const double time, const ConstVectors& position,
                                          const ConstVectors& displacement, const Vectors& change) const {
-  SKEIN_REQUIRE(displacement.extent(0) == position.extent(0) && change.extent(0) == position.extent(0),
-                "one displacement and one change for each position");
-  sections_.compute_means(displacement, displacement_);
-  add_section_repulsion_change<ExecSpace>(ExecSpace(), sections_.locate(position), {strength_, range_}, displacement_,
-                                          change);
+  add_force_changes_on(0, position.extent_int(0), time, {position, {}, displacement, {}}, change);
+}
+
+void SectionRepulsion::add_forces_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
+                                     const Vectors& force) const {
+  SKEIN_REQUIRE(force.extent(0) == nodes.position.extent(0), "one force for each position");
+  const SectionBlocks blocks = sections_.blocks_of(first, n);
+  add_section_repulsion<ExecSpace>(ExecSpace(), locate(nodes), {strength_, range_}, {blocks.first, blocks.count},
+                                   force);
+}
+
+void SectionRepulsion::add_force_changes_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
+                                            const Vectors& change) const {
+  SKEIN_REQUIRE(
+      nodes.displacement.extent(0) == nodes.position.extent(0) && change.extent(0) == nodes.position.extent(0),
+      "one displacement and one change for each position");
+  ConstVectors mean = nodes.mean_displacement;
+  if (!mean.is_allocated()) {
+    sections_.compute_means(nodes.displacement, displacement_);
+    mean = displacement_;
+  }
+  const SectionBlocks blocks = sections_.blocks_of(first, n);
+  add_section_repulsion_change<ExecSpace>(ExecSpace(), locate(nodes), {strength_, range_}, {blocks.first, blocks.count},
+                                          mean, change);
+}
+
+const SectionBoxes<ExecSpace>& SectionRepulsion::locate(const SeenNodes& nodes) const {
+  return nodes.centroid.is_allocated() ? sections_.locate_at(nodes.centroid) : sections_.locate(nodes.position);
 }
 
 void SectionRepulsion::add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const {

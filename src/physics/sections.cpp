@@ -8,29 +8,37 @@
 #include "kernels/section_gap.hpp"
 #include "kernels/tube_surface.hpp"
 
+#include <algorithm>
+
 namespace skein {
 namespace {
 
-SectionBoxes<ExecSpace> make_boxes(const std::vector<Fiber>& fibers) {
+std::vector<FiberSections> list_sections(const std::vector<Fiber>& fibers) {
   std::vector<FiberSections> boxed;
-  std::vector<int> fiber_of_block;
+  int n_blocks = 0;
   for (const Fiber& fiber : fibers) {
     boxed.push_back({.first_node = fiber.first_node,
                      .first_section = fiber.first_section,
-                     .first_block = static_cast<int>(fiber_of_block.size()),
+                     .first_block = n_blocks,
                      .n_sections = fiber.config.sections,
                      .nodes_per_section = fiber.config.nodes_per_section,
                      .distant_sections = fiber.distant_sections(),
                      .radius = fiber.config.radius,
                      .spacing = fiber.spacing()});
-    fiber_of_block.insert(fiber_of_block.end(), math::ceil_div(fiber.config.sections, sections_per_block),
-                          static_cast<int>(boxed.size()) - 1);
+    n_blocks = boxed.back().end_block();
   }
+  return boxed;
+}
+
+SectionBoxes<ExecSpace> make_boxes(const std::vector<FiberSections>& boxed, const int n_sections) {
+  std::vector<int> fiber_of_block;
+  for (std::size_t f = 0; f < boxed.size(); ++f)
+    fiber_of_block.resize(static_cast<std::size_t>(boxed[f].end_block()), static_cast<int>(f));
   const std::size_t n_fibers = boxed.size(), n_blocks = fiber_of_block.size();
   SectionBoxes<ExecSpace> boxes;
   boxes.fiber = copy_to_device("skein::SectionBoxes::fiber", boxed);
   boxes.fiber_of_block = copy_to_device("skein::SectionBoxes::fiber_of_block", fiber_of_block);
-  boxes.centroid = Vectors("skein::SectionBoxes::centroid", static_cast<std::size_t>(count_sections(fibers)));
+  boxes.centroid = Vectors("skein::SectionBoxes::centroid", static_cast<std::size_t>(n_sections));
   boxes.block_low = Vectors("skein::SectionBoxes::block_low", n_blocks);
   boxes.block_high = Vectors("skein::SectionBoxes::block_high", n_blocks);
   boxes.fiber_low = Vectors("skein::SectionBoxes::fiber_low", n_fibers);
@@ -57,7 +65,8 @@ TubeSurfaces<ExecSpace> make_surfaces(const SectionBoxes<ExecSpace>& boxes) {
 Sections::Sections(const std::vector<Fiber>& fibers)
     : n_nodes_(count_nodes(fibers)),
       n_sections_(count_sections(fibers)),
-      boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(fibers))),
+      fibers_(std::make_unique<std::vector<FiberSections>>(list_sections(fibers))),
+      boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(*fibers_, n_sections_))),
       surfaces_(std::make_unique<TubeSurfaces<ExecSpace>>(make_surfaces(*boxes_))),
       depth_("skein::Sections::depth", static_cast<std::size_t>(n_nodes_)),
       faulty_node_("skein::Sections::faulty_node") {}
@@ -81,7 +90,25 @@ int Sections::find_faulty_node(const ConstVectors& position, const double max_ra
 
 void Sections::compute_means(const ConstVectors& vector, const Vectors& mean) const {
   SKEIN_REQUIRE(vector.extent_int(0) == n_nodes_, "a vector for each of the fibers' nodes is needed");
-  compute_section_means<ExecSpace>(ExecSpace(), *boxes_, vector, mean);
+  compute_section_means<ExecSpace>(ExecSpace(), *boxes_, all_blocks<ExecSpace>(*boxes_), vector, mean);
+}
+
+void Sections::compute_means_on(const int first, const int n, const ConstVectors& vector, const Vectors& mean) const {
+  SKEIN_REQUIRE(vector.extent_int(0) == n_nodes_, "a vector for each of the fibers' nodes is needed");
+  const SectionBlocks blocks = blocks_of(first, n);
+  compute_section_means<ExecSpace>(ExecSpace(), *boxes_, {blocks.first, blocks.count}, vector, mean);
+}
+
+SectionBlocks Sections::blocks_of(const int first, const int n) const {
+  if (n == 0) return {};
+  const auto block_of = [this](const int node) {
+    const auto next = std::find_if(fibers_->begin(), fibers_->end(), [node](const FiberSections& fiber) {
+      return node < fiber.first_node + fiber.n_sections * fiber.nodes_per_section;
+    });
+    return next->first_block + (node - next->first_node) / next->nodes_per_section / sections_per_block;
+  };
+  const int first_block = block_of(first);
+  return {first_block, block_of(first + n - 1) + 1 - first_block};
 }
 
 std::vector<Vec3> Sections::compute_centreline(const ConstVectors& position) const {
@@ -123,6 +150,13 @@ SectionRecord Sections::look(const ConstVectors& position) const {
 const SectionBoxes<ExecSpace>& Sections::locate(const ConstVectors& position) const {
   SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
   locate_sections<ExecSpace>(ExecSpace(), *boxes_, position);
+  return *boxes_;
+}
+
+const SectionBoxes<ExecSpace>& Sections::locate_at(const ConstVectors& centroid) const {
+  SKEIN_REQUIRE(centroid.extent_int(0) == n_sections_, "a centroid for each section is needed");
+  Kokkos::deep_copy(ExecSpace(), boxes_->centroid, centroid);
+  enclose_sections<ExecSpace>(ExecSpace(), *boxes_);
   return *boxes_;
 }
 

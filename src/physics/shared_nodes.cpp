@@ -106,15 +106,8 @@ bool OwnedNodes::serve(const Physics& physics) const {
          physics.rigid_bodies.is_empty() && physics.symmetry == nullptr;
 }
 
-void OwnedNodes::gather_where_needed(const Vectors& part, const Vectors& whole) {
-  if (order_.are_local)
-    gather_needed_rows(link_.ranks, owners_, forces_->needed(), part, whole);
-  else
-    gather_parts_to_all(link_.ranks, owners_, part, whole);
-}
-
 /// All ranks have the positions that they need then. The order of an evaluation is filled in but for its kind.
-void OwnedNodes::take_positions(Part& at) {
+void OwnedNodes::take_positions(const Physics& physics, Part& at) {
   // What the last sum did without, this one will do without. Where it does not, it asks.
   order_.are_local = link_.has_divided && !forces_->needed().are_all();
   order_.are_held = evaluated_ == at.content && link_.held_position == position_.data();
@@ -127,7 +120,8 @@ void OwnedNodes::take_positions(Part& at) {
   const Vectors all = find_room();
   send(order_.kind, at);
   link_.ranks.begin_work(RankWork::forces);
-  gather_where_needed(at.own, all);
+  seen_.centroid =
+      gather_for_forces(link_.ranks, owners_, forces_->needed(), physics.sections, order_.are_local, at.own, all);
   position_ = all;
   evaluated_ = at.content;
   link_.held_position = all.data();
@@ -138,7 +132,10 @@ void OwnedNodes::take_positions(Part& at) {
 }
 
 Sources OwnedNodes::compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force) {
-  ForceShare::compute_own(link_.ranks, owners_, physics.forces, order_.time, position_, displacement, force);
+  seen_.position = position_;
+  seen_.displacement = displacement;
+  ForceShare::compute_own(link_.ranks, owners_, physics.forces, order_.time, seen_, force);
+  seen_.displacement = {};
   link_.own_forces = {&owners_, forces_->scene(), force};
   link_.held = {position_.data(), force.data(), position_.extent_int(0)};
   return {position_, force, physics.blob, true};
@@ -153,7 +150,7 @@ Sources OwnedNodes::compute_forces(const Physics& physics, const double time, co
   order_.time = time;
   order_.velocity = result.number;
   adds_to_flow_ = true;
-  take_positions(at);
+  take_positions(physics, at);
   if (owners_.count[0] > 0) flow_.compute_velocity(time, own_rows(at.own), own_rows(velocity_));
   return compute_own_forces(physics, {}, force);
 }
@@ -169,9 +166,10 @@ Sources OwnedNodes::compute_force_changes(const Physics& physics, const double t
   order_.velocity = result.number;
   order_.displacement = moved.number;
   adds_to_flow_ = false;
-  take_positions(at);
+  take_positions(physics, at);
   const Vectors all = find_room();
-  gather_where_needed(moved.own, all);
+  seen_.mean_displacement =
+      gather_for_forces(link_.ranks, owners_, forces_->needed(), physics.sections, order_.are_local, moved.own, all);
   Kokkos::deep_copy(ExecSpace(), own_rows(velocity_), 0.0);
   return compute_own_forces(physics, all, force);
 }

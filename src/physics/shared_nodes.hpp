@@ -87,8 +87,7 @@ class OwnedNodes final : public SharedNodes {
   }
   Vectors gather_part(Part& part);
   Vectors find_room();
-  void gather_where_needed(const Vectors& part, const Vectors& whole);
-  void take_positions(Part& at);
+  void take_positions(const Physics& physics, Part& at);
   Sources compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force);
   void drop_unused();
 
@@ -101,6 +100,7 @@ class OwnedNodes final : public SharedNodes {
   SumOrder order_;
   std::vector<Vectors> rooms_;     ///< for whole arrays; those that nobody else holds are free
   Vectors position_;               ///< in the last evaluation, of all nodes or as far as needed for own forces
+  SeenNodes seen_;                 ///< then, for forces
   std::int64_t last_content_ = 0;  ///< of arrays
   std::int64_t evaluated_ = -1;    ///< that of the positions; -1: none was
   bool adds_to_flow_ = true;       ///< in the last evaluation: else to zeros

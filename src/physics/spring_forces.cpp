@@ -93,7 +93,7 @@ ForcePromises SpringForces::promises() const {
 }
 
 void SpringForces::add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const {
-  add_forces_on(0, position.extent_int(0), 0.0, position, force);
+  add_forces_on(0, position.extent_int(0), 0.0, {position, {}, {}, {}}, force);
 }
 
 void SpringForces::compute_forces(const double time, const ConstVectors& position, const Vectors& force) const {
@@ -107,15 +107,16 @@ void SpringForces::add_force_changes(double /*time*/, const ConstVectors& positi
                                      change);
 }
 
-void SpringForces::add_forces_on(const int first, const int n, double /*time*/, const ConstVectors& position,
+void SpringForces::add_forces_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
                                  const Vectors& force) const {
+  const ConstVectors& position = nodes.position;
   if (by_nodes_) return add_spring_force_by_nodes<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, force);
   add_spring_force<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, force);
 }
 
-void SpringForces::add_force_changes_on(const int first, const int n, double /*time*/, const ConstVectors& position,
-                                        const ConstVectors& displacement, const Vectors& change) const {
-  add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, {first, n}, position, displacement, change);
+void SpringForces::add_force_changes_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
+                                        const Vectors& change) const {
+  add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, {first, n}, nodes.position, nodes.displacement, change);
 }
 
 double SpringForces::compute_largest_strain(const ConstVectors& position) const {

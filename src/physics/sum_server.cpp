@@ -128,11 +128,9 @@ class SumServer {
   static void make_room(Vectors& all, const std::size_t n_nodes) {
     if (all.extent(0) != n_nodes) all = Vectors("skein::SumServer::all", n_nodes);
   }
-  void gather_where_needed(const ForceShare& share, const Vectors& part, const Vectors& whole) {
-    if (order_.are_local)
-      gather_needed_rows(ranks_, share.nodes, share.needed, part, whole);
-    else
-      gather_parts_to_all(ranks_, share.nodes, part, whole);
+  /// @returns means over sections, where forces see those and no rank has all nodes; else none
+  Vectors gather_where_needed(const ForceShare& share, const Vectors& part, const Vectors& whole) {
+    return gather_for_forces(ranks_, share.nodes, share.needed, *share.sections, order_.are_local, part, whole);
   }
   void evaluate() {
     const auto& [share, parts] = scenes_.at(order_.scene);
@@ -140,17 +138,18 @@ class SumServer {
     make_room(nodes_.force, share.nodes.total());
     ranks_.begin_work(RankWork::forces);
     const bool are_changes = order_.kind == SumOrder::Kind::evaluate_changes;
-    if (!order_.are_held) gather_where_needed(share, parts[order_.array], nodes_.position);
+    if (!order_.are_held) seen_.centroid = gather_where_needed(share, parts[order_.array], nodes_.position);
     const Vectors velocity = parts.rows(order_.velocity);
     if (are_changes) {
       make_room(nodes_.displacement, share.nodes.total());
-      gather_where_needed(share, parts[order_.displacement], nodes_.displacement);
+      seen_.mean_displacement = gather_where_needed(share, parts[order_.displacement], nodes_.displacement);
       Kokkos::deep_copy(ExecSpace(), velocity, 0.0);
     } else if (velocity.extent(0) > 0) {
       share.flow->compute_velocity(order_.time, parts.rows(order_.array), velocity);
     }
-    ForceShare::compute_own(ranks_, share.nodes, share.forces, order_.time, nodes_.position,
-                            are_changes ? ConstVectors(nodes_.displacement) : ConstVectors(), nodes_.force);
+    seen_.position = nodes_.position;
+    seen_.displacement = are_changes ? ConstVectors(nodes_.displacement) : ConstVectors();
+    ForceShare::compute_own(ranks_, share.nodes, share.forces, order_.time, seen_, nodes_.force);
   }
   void add_direct() {
     const NodeParts* const parts = order_.is_delivered ? &scenes_.at(order_.scene).parts : nullptr;
@@ -191,6 +190,7 @@ class SumServer {
   const std::function<void(const Vectors& force)>& look_;
   SumOrder order_;
   OrderedNodes nodes_;
+  SeenNodes seen_;  ///< in the last evaluation, for forces
   DirectShare direct_;
   std::unordered_map<int, ServedFmmSum> sums_;
   std::unordered_map<int, ServedScene> scenes_;

@@ -110,24 +110,24 @@ class Undulations final : public Force {
   }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
-    add_forces_on(0, position.extent_int(0), time, position, force);
+    add_forces_on(0, position.extent_int(0), time, {position, {}, {}, {}}, force);
   }
   void add_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override {
-    add_force_changes_on(0, position.extent_int(0), time, position, displacement, change);
+    add_force_changes_on(0, position.extent_int(0), time, {position, {}, displacement, {}}, change);
   }
 
-  void add_forces_on(const int first, const int n, const double time, const ConstVectors& position,
+  void add_forces_on(const int first, const int n, const double time, const SeenNodes& nodes,
                      const Vectors& force) const override {
     set_time(time);
     Kokkos::parallel_for("skein::add_undulation_forces", Nodes(ExecSpace(), first, first + n),
-                         AddWaveForce{waves_, position, force});
+                         AddWaveForce{waves_, nodes.position, force});
   }
-  void add_force_changes_on(const int first, const int n, const double time, const ConstVectors& /*position*/,
-                            const ConstVectors& displacement, const Vectors& change) const override {
+  void add_force_changes_on(const int first, const int n, const double time, const SeenNodes& nodes,
+                            const Vectors& change) const override {
     set_time(time);
     Kokkos::parallel_for("skein::add_undulation_force_changes", Nodes(ExecSpace(), first, first + n),
-                         AddWaveForce{waves_, displacement, change});
+                         AddWaveForce{waves_, nodes.displacement, change});
   }
 
   void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {

@@ -149,32 +149,44 @@ TEST_P(ForceTest, MovesWithARigidBodyWhereItPromises) {
   EXPECT_NEAR(energy_at(moved), energy_at(nodes_), 1e-11 * std::abs(energy_at(nodes_)));
 }
 
+/// What ranks go by: forces on some nodes from positions near them, and from all centroids where they see those.
 TEST_P(ForceTest, DependsOnNothingBeyondItsReach) {
-  const int reach = force().promises().reach;
-  if (reach == ForcePromises::everywhere) {
-    EXPECT_TRUE(force().promises().acts_between_fibers) << "a promise is missing";
-    return;
-  }
+  const ForcePromises promises = force().promises();
+  ASSERT_NE(promises.reach, ForcePromises::everywhere) << "a promise is missing";
   const Nodes f = forces_at(nodes_), v = random_vectors();
-  const auto change_at = [&](const Nodes& position, const Nodes& displacement) {
-    const Vectors change("change", position.size());
-    force().add_force_changes(moment_of_test, to_device("x", position), to_device("v", displacement), change);
-    return to_host(ConstVectors(change));
-  };
-  const Nodes change = change_at(nodes_, v);
+  const Vectors whole = to_device("x", nodes_), displacement = to_device("v", v);
+  const Vectors changed("change", nodes_.size());
+  force().add_force_changes(moment_of_test, whole, displacement, changed);
+  const Nodes change = to_host(ConstVectors(changed));
+  SeenNodes seen;
+  if (promises.sees_centroids) {
+    const Vectors centroid("centroid", static_cast<std::size_t>(physics_.sections.n_sections()));
+    const Vectors mean("mean", centroid.extent(0));
+    physics_.sections.compute_means(whole, centroid);
+    physics_.sections.compute_means(displacement, mean);
+    seen.centroid = centroid;
+    seen.mean_displacement = mean;
+  }
   for (const Fiber& fiber : physics_.fibers) {
     const int n = fiber.config.nodes_per_section;
-    for (const int section : {0, 7, fiber.config.sections / 2, fiber.config.sections - 1}) {
+    for (const int section : {0, 7, 17, fiber.config.sections / 2, fiber.config.sections - 1}) {
       Nodes moved = nodes_, displaced = v;
       for (int node = 0; node < n_nodes(); ++node) {
         const int other = (node - fiber.first_node) / n;
         const bool is_own = node >= fiber.first_node && node < fiber.first_node + fiber.n_nodes();
-        if (is_own && std::abs(other - section) <= reach) continue;
+        if (is_own && std::abs(other - section) <= promises.reach) continue;
         moved[node] = moved[node] + random_.in_cube(0.01);
         displaced[node] = random_.in_cube(1.0);
       }
-      const Nodes after = forces_at(moved), change_after = change_at(moved, displaced);
-      for (int node = fiber.first_node + section * n; node < fiber.first_node + (section + 1) * n; ++node) {
+      seen.position = to_device("moved", moved);
+      seen.displacement = {};
+      const int first = fiber.first_node + section * n;
+      const Vectors force_on("force", nodes_.size()), change_on("change", nodes_.size());
+      force().add_forces_on(first, n, moment_of_test, seen, force_on);
+      seen.displacement = to_device("displaced", displaced);
+      force().add_force_changes_on(first, n, moment_of_test, seen, change_on);
+      const Nodes after = to_host(ConstVectors(force_on)), change_after = to_host(ConstVectors(change_on));
+      for (int node = first; node < first + n; ++node) {
         EXPECT_EQ(after[node], f[node]) << "section " << section;
         EXPECT_EQ(change_after[node], change[node]) << "section " << section;
       }

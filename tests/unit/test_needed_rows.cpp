@@ -51,11 +51,31 @@ TEST(NeededRows, FollowTheFarthestSpring) {
   EXPECT_EQ(needed.end, (std::vector<std::size_t>{20, 32, 38}));
 }
 
-TEST(NeededRows, AreAllWhereFibersRepelEachOther) {
+TEST(NeededRows, AreNoMoreWhereFibersRepelEachOtherByTheirCentroids) {
   SceneConfig scene = make_scene();
-  EXPECT_FALSE(find(scene, {20, 18}).are_all());
+  const NeededRows alone = find(scene, {10, 16, 12});
+  EXPECT_TRUE(alone.sections.count.empty());
   scene.repulsion.strength = 1.0;
-  EXPECT_TRUE(find(scene, {20, 18}).are_all());
+  const NeededRows needed = find(scene, {10, 16, 12});
+  EXPECT_EQ(needed.first, alone.first);
+  EXPECT_EQ(needed.end, alone.end);
+  EXPECT_EQ(needed.sections.count, (std::vector<std::size_t>{2, 4, 4}));
+  EXPECT_EQ(find(scene, {0, 38, 0}).sections.count, (std::vector<std::size_t>{0, 10, 0}));
+}
+
+/// As one of one's own that promises nothing.
+class FarReaching final : public Force {
+ public:
+  ForcePromises promises() const override { return {}; }
+  void add_forces(double, const ConstVectors&, const Vectors&) const override {}
+  void add_force_changes(double, const ConstVectors&, const ConstVectors&, const Vectors&) const override {}
+  std::string describe() const override { return "far-reaching"; }
+};
+
+TEST(NeededRows, AreAllWhereAForceMayReachAnything) {
+  Physics physics = make_physics(make_scene());
+  physics.forces.push_back(std::make_unique<FarReaching>());
+  EXPECT_TRUE(find_needed_rows(physics.fibers, physics.forces, RankParts::behind_each_other({20, 18})).are_all());
 }
 
 double component(const Vec3& v, const std::size_t c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }

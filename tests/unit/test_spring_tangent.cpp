@@ -87,7 +87,8 @@ TEST(SpringTangent, AtSomeNodesHasTheBitsOfAll) {
     const int n = static_cast<int>(all.size()), edge = n / 3 + 1;
     for (const auto& [first, count] : {std::pair{0, edge}, std::pair{edge, n - edge}, std::pair{n - 1, 1}}) {
       const Vectors change("change", all.size());
-      springs.add_force_changes_on(first, count, 0.0, to_device("x", position), to_device("u", displacement), change);
+      springs.add_force_changes_on(first, count, 0.0, {to_device("x", position), {}, to_device("u", displacement), {}},
+                                   change);
       const Nodes some = to_host(ConstVectors(change));
       EXPECT_EQ(std::memcmp(&some[first], &all[first], count * sizeof(Vec3)), 0)
           << count << " nodes from " << first << " of " << n;

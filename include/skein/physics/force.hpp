@@ -23,6 +23,15 @@ struct ForcePromises {
   /// The force on a section, and its change, depend on nodes of sections of the same fiber up to so far from it only.
   int reach = everywhere;
   static constexpr int everywhere = -1;  ///< on any
+  bool sees_centroids = false;           ///< besides, on the centroids of any sections
+};
+
+/// Nodes as a rank sees them, for the forces on some of them. [n_nodes, 3] and [n_sections, 3], length
+struct SeenNodes {
+  ConstVectors position;           ///< of nodes within reach; others' are not looked at
+  ConstVectors centroid;           ///< of all sections; empty: position is of all nodes
+  ConstVectors displacement;       ///< of nodes within reach; empty: forces are asked for, not changes of them
+  ConstVectors mean_displacement;  ///< of the nodes of each section; empty: displacement is of all nodes
 };
 
 /// What acts on nodes besides the fluid: springs, a repulsion, gravity, ... A scene's forces are a list of these
@@ -52,13 +61,13 @@ class Force {
 
   /// The same two for the nodes [first, first + n): these get the same bits; of the others' numbers nothing is said.
   /// Ranks share the forces of a scene by them. A force that has no way for a few nodes does it for all.
-  virtual void add_forces_on(int /*first*/, int /*n*/, const double time, const ConstVectors& position,
+  virtual void add_forces_on(int /*first*/, int /*n*/, const double time, const SeenNodes& nodes,
                              const Vectors& force) const {
-    add_forces(time, position, force);
+    add_forces(time, nodes.position, force);
   }
-  virtual void add_force_changes_on(int /*first*/, int /*n*/, const double time, const ConstVectors& position,
-                                    const ConstVectors& displacement, const Vectors& change) const {
-    add_force_changes(time, position, displacement, change);
+  virtual void add_force_changes_on(int /*first*/, int /*n*/, const double time, const SeenNodes& nodes,
+                                    const Vectors& change) const {
+    add_force_changes(time, nodes.position, nodes.displacement, change);
   }
 
   /// Adds its energy, force * length; halves of what two fibers share. A force that has none adds nothing.

@@ -34,6 +34,9 @@ class SectionRepulsion final : public Force {
   void add_forces(double time, const ConstVectors& position, const Vectors& force) const override;
   void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override;
+  void add_forces_on(int first, int n, double time, const SeenNodes& nodes, const Vectors& force) const override;
+  void add_force_changes_on(int first, int n, double time, const SeenNodes& nodes,
+                            const Vectors& change) const override;
 
   /// Half of a pair's energy goes to each fiber.
   void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const override;
@@ -45,6 +48,8 @@ class SectionRepulsion final : public Force {
   std::string describe() const override;
 
  private:
+  const SectionBoxes<ExecSpace>& locate(const SeenNodes& nodes) const;
+
   double strength_, range_;
   std::vector<int> n_sections_;  ///< [n_fibers]
   Sections sections_;

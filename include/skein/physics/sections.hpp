@@ -8,6 +8,7 @@
 
 namespace skein {
 
+struct FiberSections;
 template <class Space>
 struct SectionBoxes;
 template <class Space>
@@ -24,6 +25,11 @@ struct SectionRecord {
   std::vector<Vec3> centreline;  ///< as compute_centreline gives it
   double smallest_gap = 0.0;     ///< as compute_smallest_gap
   Penetration penetration;       ///< as compute_penetration
+};
+
+/// Blocks of sections that follow each other.
+struct SectionBlocks {
+  int first = 0, count = 0;
 };
 
 /// The sections of all fibers on the device: what is asked of all of them takes one launch or a few, however many
@@ -50,6 +56,8 @@ class Sections {
 
   /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3].
   void compute_means(const ConstVectors& vector, const Vectors& mean) const;
+  /// The same for the sections of the nodes [first, first + n), and maybe of some others.
+  void compute_means_on(int first, int n, const ConstVectors& vector, const Vectors& mean) const;
 
   /// Centroids of all sections. @returns [n_sections], length
   std::vector<Vec3> compute_centreline(const ConstVectors& position) const;
@@ -70,12 +78,17 @@ class Sections {
 
   /// Centroids, and boxes about blocks of sections and about fibers, of nodes at `position`: for kernels.
   const SectionBoxes<ExecSpace>& locate(const ConstVectors& position) const;
+  /// The same from the centroids, [n_sections, 3].
+  const SectionBoxes<ExecSpace>& locate_at(const ConstVectors& centroid) const;
+  /// The blocks of sections that the nodes [first, first + n) are in, for kernels.
+  SectionBlocks blocks_of(int first, int n) const;
 
  private:
   void locate_surfaces(const ConstVectors& position) const;
   Penetration find_penetration() const;
 
   int n_nodes_, n_sections_;
+  std::unique_ptr<std::vector<FiberSections>> fibers_;
   std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
   std::unique_ptr<TubeSurfaces<ExecSpace>> surfaces_;
   Scalars depth_;  ///< [n_nodes], of nodes in surfaces, length

@@ -30,9 +30,9 @@ class SpringForces final : public Force {
   void compute_forces(double time, const ConstVectors& position, const Vectors& force) const override;
   void add_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override;
-  void add_forces_on(int first, int n, double time, const ConstVectors& position, const Vectors& force) const override;
-  void add_force_changes_on(int first, int n, double time, const ConstVectors& position,
-                            const ConstVectors& displacement, const Vectors& change) const override;
+  void add_forces_on(int first, int n, double time, const SeenNodes& nodes, const Vectors& force) const override;
+  void add_force_changes_on(int first, int n, double time, const SeenNodes& nodes,
+                            const Vectors& change) const override;
   void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const override;
 
   /// The largest |r/l - 1| over all springs, r their length and l that at rest.
