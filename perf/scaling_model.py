@@ -19,7 +19,7 @@ and in the picture:
            coefficients and copies of nodes as fitted. In a run positions and forces go to the ranks that have their places in
            the tree, velocities come back (all but one of as many parts of a rank's, if nodes and places have nothing to do
            with each other), rank 0 gathers positions and what a checkpoint takes, once a step, and what goes to all is as
-           measured; all positions (the dashed line), where fibers repel each other.
+           measured; besides the centroids of all sections (the dashed line), where fibers repel each other.
            Sums by themselves broadcast positions and forces, which pass the link once for two ranks, nearly twice for more (a
            part to each, which gives it to all others), and gather velocities. Arrays take two latencies each, as the receiver
            is asked first; orders travel with them.
@@ -41,6 +41,7 @@ SENDING = 5e-7  # seconds that rank 0 takes for a message to or from each other 
 ORDERS = 2.0  # of the messages of a sum
 ORDERS_IN_RUN = 3.0  # of an evaluation's
 VECTOR = 24.0  # bytes a node
+NODES_PER_SECTION = 18.0
 NEW_TREE = 16.0  # bytes a node, of keys, and of what each took
 SERIAL_TREE = 0.5  # of building a tree
 TOP_BOXES, TOP_BOX = 55.0, 1e-6  # for each rank; seconds a tree
@@ -102,7 +103,7 @@ class Model:
             return 0.0
         others = (ranks - 1) / ranks
         if in_run:
-            by_link = ((VECTOR if repels else self.to_all) + self.kept) * others
+            by_link = (self.to_all + (VECTOR / NODES_PER_SECTION if repels else 0.0) + self.kept) * others
             messages, orders = self.run_messages, ORDERS_IN_RUN
         else:
             by_link = self.broadcast * (1.0 if ranks == 2 else 2.0 * others) + self.gather * others
@@ -144,7 +145,7 @@ def draw(model, path):
             axis.loglog(ranks, np.maximum(parts[name], 1e-7), color=COLORS[name], marker=".", label=name)
         axis.loglog(ranks, total, "k", linewidth=2, label="all")
         repelling = [sum(model.seconds(n, int(p), repels=True).values()) for p in ranks]
-        axis.loglog(ranks, repelling, "k--", linewidth=1, label="all, positions on every rank")
+        axis.loglog(ranks, repelling, "k--", linewidth=1, label="all, with a repulsion")
         axis.loglog(ranks, total[0] / ranks, "k:", linewidth=1, label="ideal")
         axis.set_title(f"N = {n:.0e}")
         axis.set_xlabel(f"nodes of {CORES} cores")

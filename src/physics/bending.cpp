@@ -98,14 +98,16 @@ struct BendEnergy {
   }
 };
 
-/// Each node gathers from the three bends that it takes part in, so that no number is written by two threads.
+/// Some nodes; each gathers from the three bends that it takes part in, so that no number is written by two threads.
 template <class Ends>
-void add_by_bends(const char* label, const ConstScalars& resistance, const Ends& ends_of, const Vectors& sum) {
+void add_by_bends(const char* label, const int first, const int n, const ConstScalars& resistance, const Ends& ends_of,
+                  const Vectors& sum) {
   SKEIN_REQUIRE(ends_of.position.extent(0) == resistance.extent(0) && sum.extent(0) == resistance.extent(0),
                 "positions and forces are those of the fibers' nodes");
   const int n_nodes = sum.extent_int(0);
   launch<ExecSpace>(
-      label, ExecSpace(), Calls{n_nodes, 50.0}, KOKKOS_LAMBDA(const int node) {
+      label, ExecSpace(), Calls{n, 50.0}, KOKKOS_LAMBDA(const int i) {
+        const int node = first + i;
         Vec3 own;
         for (int bend = math::larger(0, node - 1); bend <= math::smaller(n_nodes - 1, node + 1); ++bend) {
           if (resistance(bend) == 0.0) continue;
@@ -136,12 +138,21 @@ class Bending final : public Force {
             .reach = 2};
   }
 
-  void add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const override {
-    add_by_bends("skein::add_bending_forces", resistance_, BendForces{position}, force);
+  void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
+    add_forces_on(0, force.extent_int(0), time, {position, {}, {}, {}}, force);
   }
-  void add_force_changes(double /*time*/, const ConstVectors& position, const ConstVectors& displacement,
+  void add_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override {
-    add_by_bends("skein::add_bending_force_changes", resistance_, BendChanges{position, displacement}, change);
+    add_force_changes_on(0, change.extent_int(0), time, {position, {}, displacement, {}}, change);
+  }
+  void add_forces_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
+                     const Vectors& force) const override {
+    add_by_bends("skein::add_bending_forces", first, n, resistance_, BendForces{nodes.position}, force);
+  }
+  void add_force_changes_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
+                            const Vectors& change) const override {
+    add_by_bends("skein::add_bending_force_changes", first, n, resistance_,
+                 BendChanges{nodes.position, nodes.displacement}, change);
   }
   void add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const override {
     energy_.add("skein::compute_bending_energy", energy, BendEnergy{resistance_, position});

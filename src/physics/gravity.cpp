@@ -35,14 +35,21 @@ class Gravity final : public Force {
 
   ForcePromises promises() const override { return {.is_conservative = true, .is_steady = true, .reach = 0}; }
 
-  void add_forces(double /*time*/, const ConstVectors& position, const Vectors& force) const override {
-    SKEIN_REQUIRE(position.extent(0) == node_weight_.extent(0) && force.extent(0) == position.extent(0),
+  void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
+    add_forces_on(0, force.extent_int(0), time, {position, {}, {}, {}}, force);
+  }
+
+  void add_forces_on(const int first, const int n, double /*time*/, const SeenNodes& nodes,
+                     const Vectors& force) const override {
+    SKEIN_REQUIRE(nodes.position.extent(0) == node_weight_.extent(0) && force.extent(0) == nodes.position.extent(0),
                   "positions and forces are those of the fibers' nodes");
     const ConstScalars weight = node_weight_;
     const Vec3 down = direction_;
     launch<ExecSpace>(
-        "skein::add_gravity", ExecSpace(), Calls{force.extent_int(0), 10.0},
-        KOKKOS_LAMBDA(const int i) { store(force, i, load(force, i) + weight(i) * down); });
+        "skein::add_gravity", ExecSpace(), Calls{n, 10.0}, KOKKOS_LAMBDA(const int i) {
+          const int node = first + i;
+          store(force, node, load(force, node) + weight(node) * down);
+        });
   }
 
   void add_force_changes(double /*time*/, const ConstVectors& /*position*/, const ConstVectors& /*displacement*/,

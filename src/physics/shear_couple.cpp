@@ -92,11 +92,13 @@ struct LinkPower {
 
 /// Each node gathers from the two links that end there, so that no number is written by two threads.
 template <class OnHead>
-void add_by_links(const char* label, const ConstScalars& couple, const OnHead& on_head, const Vectors& sum) {
+void add_by_links(const char* label, const int first, const int n, const ConstScalars& couple, const OnHead& on_head,
+                  const Vectors& sum) {
   SKEIN_REQUIRE(on_head.position.extent(0) == couple.extent(0) && sum.extent(0) == couple.extent(0),
                 "positions and forces are those of the fibers' nodes");
   launch<ExecSpace>(
-      label, ExecSpace(), Calls{sum.extent_int(0), 25.0}, KOKKOS_LAMBDA(const int node) {
+      label, ExecSpace(), Calls{n, 25.0}, KOKKOS_LAMBDA(const int i) {
+        const int node = first + i;
         Vec3 own;
         if (node > 0 && couple(node - 1) != 0.0) own = own + on_head(node - 1, couple(node - 1));
         if (couple(node) != 0.0) own = own - on_head(node, couple(node));
@@ -116,14 +118,22 @@ class ShearCouple final : public Force {
   ForcePromises promises() const override { return {.is_balanced = true, .is_steady = flow_.is_steady(), .reach = 1}; }
 
   void add_forces(const double time, const ConstVectors& position, const Vectors& force) const override {
-    for (const FlowTerms& terms : flow_.make_terms(time))
-      add_by_links("skein::add_shear_couple_forces", couple_, HeadForces{terms, position}, force);
+    add_forces_on(0, force.extent_int(0), time, {position, {}, {}, {}}, force);
   }
   void add_force_changes(const double time, const ConstVectors& position, const ConstVectors& displacement,
                          const Vectors& change) const override {
+    add_force_changes_on(0, change.extent_int(0), time, {position, {}, displacement, {}}, change);
+  }
+  void add_forces_on(const int first, const int n, const double time, const SeenNodes& nodes,
+                     const Vectors& force) const override {
     for (const FlowTerms& terms : flow_.make_terms(time))
-      add_by_links("skein::add_shear_couple_force_changes", couple_, HeadChanges{terms, position, displacement},
-                   change);
+      add_by_links("skein::add_shear_couple_forces", first, n, couple_, HeadForces{terms, nodes.position}, force);
+  }
+  void add_force_changes_on(const int first, const int n, const double time, const SeenNodes& nodes,
+                            const Vectors& change) const override {
+    for (const FlowTerms& terms : flow_.make_terms(time))
+      add_by_links("skein::add_shear_couple_force_changes", first, n, couple_,
+                   HeadChanges{terms, nodes.position, nodes.displacement}, change);
   }
 
   // The couple is the flow's, not the gradient of an energy: its work comes from outside.
