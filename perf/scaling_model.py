@@ -19,7 +19,7 @@ and in the picture:
            coefficients and copies of nodes as fitted. In a run positions and forces go to the ranks that have their places in
            the tree, velocities come back (all but one of as many parts of a rank's, if nodes and places have nothing to do
            with each other), rank 0 gathers positions and what a checkpoint takes, once a step, and what goes to all is as
-           measured; besides the centroids of all sections (the dashed line), where fibers repel each other.
+           measured; besides the centroids of all sections, where fibers repel each other.
            Sums by themselves broadcast positions and forces, which pass the link once for two ranks, nearly twice for more (a
            part to each, which gives it to all others), and gather velocities. Arrays take two latencies each, as the receiver
            is asked first; orders travel with them.
@@ -144,8 +144,6 @@ def draw(model, path):
         for name in PARTS:
             axis.loglog(ranks, np.maximum(parts[name], 1e-7), color=COLORS[name], marker=".", label=name)
         axis.loglog(ranks, total, "k", linewidth=2, label="all")
-        repelling = [sum(model.seconds(n, int(p), repels=True).values()) for p in ranks]
-        axis.loglog(ranks, repelling, "k--", linewidth=1, label="all, with a repulsion")
         axis.loglog(ranks, total[0] / ranks, "k:", linewidth=1, label="ideal")
         axis.set_title(f"N = {n:.0e}")
         axis.set_xlabel(f"nodes of {CORES} cores")
@@ -156,9 +154,10 @@ def draw(model, path):
         largest = max((name for name in PARTS if name != "shared"), key=lambda name: parts[name][-1])
         print(f"N = {n:.0e}: {total[0]:.3g} s on one node, {total[-1]:.3g} s on 64; half of the time is not shared from "
               f"{ends} nodes on, most of it {largest}; efficiency on 4, 16, 64: "
-              f"{efficiency[2]:.2f}, {efficiency[4]:.2f}, {efficiency[6]:.2f}; where fibers repel each other {repelling[-1]:.3g} s on 64")
+              f"{efficiency[2]:.2f}, {efficiency[4]:.2f}, {efficiency[6]:.2f}; where fibers repel each other "
+              f"{sum(model.seconds(n, 64, repels=True).values()):.3g} s on 64")
     axes[0].set_ylabel("seconds of an evaluation")
-    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=8)
+    figure.legend(*axes[0].get_legend_handles_labels(), fontsize=8, loc="lower center", ncol=7)
     figure.suptitle(f"Extrapolated: {LATENCY * 1e6:g} us, {BANDWIDTH / 1e9:g} GB/s; a tree in parts for {KEPT:g} sums", fontsize=10)
     figure.tight_layout(rect=(0.0, 0.06, 1.0, 1.0))
     figure.savefig(path, dpi=120)
