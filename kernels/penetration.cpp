@@ -114,8 +114,8 @@ struct PenetrationSearch {
       if (square < least) least = square;
     });
     // Nodes of planar fibers lie on each other's surfaces: rounding does not decide.
-    const double depth = math::sqrt(least);
-    return depth > margin * surfaces.sections.fiber(tube).radius ? depth : 0.0;
+    const double nearest = math::sqrt(least);
+    return nearest > margin * surfaces.sections.fiber(tube).radius ? nearest : 0.0;
   }
 
   /// Calls body(prism) for those of a tube's prisms that may be within a distance of a point.
