@@ -11,8 +11,7 @@ void compute_section_means(const Space& space, const SectionBoxes<Space>& boxes,
   SKEIN_REQUIRE(mean.extent(0) == boxes.centroid.extent(0), "one mean for each section is needed");
   const SectionBoxes<Space> b = boxes;
   launch<Space>(
-      "skein::compute_section_means", space, Calls{blocks.count * sections_per_block, 30.0},
-      KOKKOS_LAMBDA(const int item) {
+      "skein::compute_section_means", space, section_calls(blocks), KOKKOS_LAMBDA(const int item) {
         const int block = blocks.first + item / sections_per_block;
         const FiberSections& fiber = b.fiber(b.fiber_of_block(block));
         const int section = fiber.first_section_of(block) + item % sections_per_block;

@@ -50,10 +50,11 @@ IndexRange all_blocks(const SectionBoxes<Space>& boxes) {
   return {0, boxes.fiber_of_block.extent_int(0)};
 }
 
-/// A loop over the places of all blocks, some of which are behind their fiber's last section.
+/// A loop over the places of blocks, some of which are behind their fiber's last section.
+inline Calls section_calls(const IndexRange blocks) { return {blocks.count * sections_per_block, 30.0}; }
 template <class Space>
 Calls section_calls(const SectionBoxes<Space>& boxes) {
-  return {boxes.fiber_of_block.extent_int(0) * sections_per_block, 30.0};
+  return section_calls(all_blocks<Space>(boxes));
 }
 
 /// Overwrites mean, [n_sections, 3], with the mean over each section's nodes of a vector on nodes, [n_nodes, 3]: of the

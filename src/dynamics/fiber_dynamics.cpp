@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -137,14 +136,13 @@ std::string FiberDynamics::find_fault(const ConstVectors& position) const {
 }
 
 std::string FiberDynamics::describe_fault(const ConstVectors& position, const int node) const {
-  const auto next = std::find_if(physics_.fibers.begin(), physics_.fibers.end(),
-                                 [node](const Fiber& fiber) { return node < fiber.first_node + fiber.n_nodes(); });
-  const int in_fiber = node - next->first_node, n = next->config.nodes_per_section;
+  const Fiber& fiber = find_fiber_of(physics_.fibers, node);
+  const int in_fiber = node - fiber.first_node, n = fiber.config.nodes_per_section;
   const Vec3 x = to_host(Kokkos::subview(position, std::make_pair(node, node + 1), Kokkos::ALL())).front();
   return fmt::format(
       "node {} (fiber {}, section {}, node {} of the section) at ({:.6g}, {:.6g}, {:.6g}) is not finite, or farther "
       "than {:g} radii from its section's centre",
-      node, next->index, in_fiber / n, in_fiber % n, x.x, x.y, x.z, burst_ratio);
+      node, fiber.index, in_fiber / n, in_fiber % n, x.x, x.y, x.z, burst_ratio);
 }
 
 }  // namespace skein

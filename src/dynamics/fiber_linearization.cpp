@@ -41,7 +41,7 @@ FiberLinearization::FiberLinearization(const std::vector<Fiber>& fibers, const d
       n_nodes_(count_nodes(fibers)),
       near_sections_(relative_sum_cost < cheap_sum ? narrow_near_sections : usual_near_sections),
       evaluation_operations_(pair_operations * n_nodes_ * n_nodes_ * relative_sum_cost +
-                             spring_operations * static_cast<double>(count_springs(fibers))) {
+                             spring_operations * static_cast<double>(count_springs(networks_))) {
   for (const SpringNetwork& network : networks_)
     bands_.push_back(std::make_unique<BlockBand>(network.n_sections, 3 * network.stencil.nodes_per_section,
                                                  near_sections_ + network.stencil.reach));

@@ -62,6 +62,11 @@ int count_sections(const std::vector<Fiber>& fibers) {
   return n_sections;
 }
 
+const Fiber& find_fiber_of(const std::vector<Fiber>& fibers, const int node) {
+  return *std::find_if(fibers.begin(), fibers.end(),
+                       [node](const Fiber& fiber) { return node < fiber.first_node + fiber.n_nodes(); });
+}
+
 double largest_length(const std::vector<Fiber>& fibers) {
   double length = 0.0;
   for (const Fiber& fiber : fibers) length = std::max(length, fiber.length());

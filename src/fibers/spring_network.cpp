@@ -57,11 +57,13 @@ std::int64_t count_springs(const SpringNetwork& network) {
   return n_springs;
 }
 
-std::int64_t count_springs(const std::vector<Fiber>& fibers) {
+std::int64_t count_springs(const std::vector<SpringNetwork>& networks) {
   std::int64_t n_springs = 0;
-  for (const Fiber& fiber : fibers) n_springs += count_springs(make_spring_network(fiber));
+  for (const SpringNetwork& network : networks) n_springs += count_springs(network);
   return n_springs;
 }
+
+std::int64_t count_springs(const std::vector<Fiber>& fibers) { return count_springs(make_spring_networks(fibers)); }
 
 std::vector<std::array<int, 2>> make_spring_list(const std::vector<Fiber>& fibers) {
   std::vector<std::array<int, 2>> springs;

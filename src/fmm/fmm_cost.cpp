@@ -38,8 +38,7 @@ double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bo
   const Precision precision = options.precision == Precision::automatic
                                   ? choose_direct_precision(rates, n_pairs, options.tolerance)
                                   : options.precision;
-  const RateByPrecision& pair = is_symmetric ? rates.symmetric_direct_pair : rates.direct_pair;
-  return fmm / (rates.direct_sum + pair.of(precision == Precision::in_single) * n_pairs);
+  return fmm / rates.direct_nanoseconds(is_symmetric, precision == Precision::in_single, n_pairs);
 }
 
 }  // namespace skein

@@ -57,8 +57,8 @@ const MachineRates& machine_rates(const KernelPath path) {
 
 Precision choose_direct_precision(const MachineRates& rates, const double n_pairs, const double tolerance) {
   if (tolerance < single_sum_error) return Precision::in_double;
-  const double in_double = rates.direct_sum + rates.direct_pair.in_double * n_pairs;
-  const double in_single = rates.direct_sum + rates.direct_pair.in_single * n_pairs;
+  const double in_double = rates.direct_nanoseconds(false, false, n_pairs);
+  const double in_single = rates.direct_nanoseconds(false, true, n_pairs);
   return in_double >= rates.least_single_gain * in_single ? Precision::in_single : Precision::in_double;
 }
 

@@ -74,10 +74,9 @@ void DirectMobility::add_velocity(const Sources& sources, const ConstVectors& ta
 double DirectMobility::relative_cost(const NodeLines& nodes) const {
   const MachineRates& rates = machine_rates(by_teams_ ? KernelPath::device : KernelPath::host);
   const double n_pairs = nodes.n_nodes * nodes.n_nodes;
-  const auto time = [&](const bool is_single) {
-    return rates.direct_sum + rates.symmetric_direct_pair.of(is_single) * n_pairs;
-  };
-  return precision_ == Precision::in_single && n_pairs > 0.0 ? time(true) / time(false) : 1.0;
+  return precision_ == Precision::in_single && n_pairs > 0.0
+             ? rates.direct_nanoseconds(true, true, n_pairs) / rates.direct_nanoseconds(true, false, n_pairs)
+             : 1.0;
 }
 
 std::string DirectMobility::describe() const { return describe_direct_sum(precision_); }

@@ -114,7 +114,7 @@ double FmmMobility::relative_cost(const NodeLines& nodes) const {
   const MachineRates& rates = machine_rates(options_.path);
   const FmmWork work = expect_work_along_lines(nodes.n_nodes, nodes.length, plan);
   const double of_method = (estimate_nanoseconds(work, plan, true, options_.path) + rates.tree) /
-                           (rates.direct_sum + rates.symmetric_direct_pair.in_double * n_pairs);
+                           rates.direct_nanoseconds(true, false, n_pairs);
   return options_.direct_when_cheaper ? std::min(of_direct, of_method) : of_method;
 }
 

@@ -23,14 +23,12 @@ RankParts common_rows(const std::vector<std::size_t>& first, const std::vector<s
 }  // namespace
 
 NeededRows find_needed_rows(const std::vector<Fiber>& fibers, const int reach, const RankParts& owners) {
-  /// The first node of the section that lies so far from a node's, or at its fiber's end.
-  const auto first_of_section = [&](const std::size_t node, const int sections_on) {
-    const auto fiber = std::find_if(fibers.begin(), fibers.end(), [node](const Fiber& candidate) {
-      return node < static_cast<std::size_t>(candidate.first_node + candidate.n_nodes());
-    });
-    const int n = fiber->config.nodes_per_section, section = (static_cast<int>(node) - fiber->first_node) / n;
-    return static_cast<std::size_t>(fiber->first_node +
-                                    std::clamp(section + sections_on, 0, fiber->config.sections) * n);
+  // The first node of the section that lies so far from a node's, or at its fiber's end.
+  const auto first_of_section = [&](const std::size_t of_all, const int sections_on) {
+    const int node = static_cast<int>(of_all);
+    const Fiber& fiber = find_fiber_of(fibers, node);
+    const int n = fiber.config.nodes_per_section, section = (node - fiber.first_node) / n;
+    return static_cast<std::size_t>(fiber.first_node + std::clamp(section + sections_on, 0, fiber.config.sections) * n);
   };
   NeededRows needed;
   for (std::size_t rank = 0; rank < owners.count.size(); ++rank) {

@@ -125,10 +125,7 @@ void OwnedNodes::take_positions(const Physics& physics, Part& at) {
   position_ = all;
   evaluated_ = at.content;
   link_.held_position = all.data();
-  if (order_.are_local)
-    link_.own_positions = {&owners_, forces_->scene(), all};
-  else
-    link_.whole_position = all.data();
+  if (order_.are_local) link_.own_positions = {&owners_, forces_->scene(), all};
 }
 
 Sources OwnedNodes::compute_own_forces(const Physics& physics, const ConstVectors& displacement, const Vectors& force) {

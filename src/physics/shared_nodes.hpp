@@ -69,8 +69,8 @@ class OwnedNodes final : public SharedNodes {
     part.content = ++last_content_;
   }
   void look_for_whole(Part& part) const {
-    if (part.whole.data() == nullptr && evaluated_ == part.content && link_.whole_position == position_.data())
-      part.whole = position_;
+    const bool is_whole = link_.held_position == position_.data() && !link_.own_positions.are(position_);
+    if (part.whole.data() == nullptr && evaluated_ == part.content && is_whole) part.whole = position_;
   }
   PartWork make_work(const PartWork::Kind kind, const Part& result) const {
     PartWork work;

@@ -144,19 +144,19 @@ struct TeamLink {
 
   Communicator& ranks;
   HeldNodes held;
-  const double* held_position = nullptr;  ///< the positions that the others have since they computed forces
+  const double* held_position = nullptr;  ///< the positions that the others have, whole or those of own_positions,
+                                          ///< since they computed forces
   OwnRows own_positions, own_forces;
-  const double* whole_position = nullptr;  ///< those of the last evaluation, since all ranks have all of them
-  bool has_divided = false;                ///< in the last sum each rank needed the positions of its own nodes only
-  Delivery* delivery = nullptr;            ///< null: rank 0 has all velocities in the end
-  bool has_parts = false;                  ///< ranks have been told to make parts of arrays
+  bool has_divided = false;      ///< in the last sum each rank needed the positions of its own nodes only
+  Delivery* delivery = nullptr;  ///< null: rank 0 has all velocities in the end
+  bool has_parts = false;        ///< ranks have been told to make parts of arrays
 
   /// To be done before the next order. Nothing is sent.
   void note(const PartWork& work) { works_.push_back(work); }
   void send(SumOrder& order);
   /// The others have other positions now.
   void forget_positions() {
-    held_position = whole_position = nullptr;
+    held_position = nullptr;
     own_positions = {};
   }
   /// For who looks at sources that he has been given: what is other nodes' comes from their owners. Of other arrays

@@ -58,7 +58,6 @@ void TeamLink::send_completing(SumOrder& order, const Sources& sources) {
   post(order);
   if (order.gathers_positions) {
     gather_rows_to_all(ranks, *own_positions.owners, own_positions.rows);
-    whole_position = own_positions.rows.data();
     own_positions = {};
   }
   if (order.gathers_forces) {

@@ -65,9 +65,8 @@ struct Section {
 };
 
 Section find_section(const std::vector<Fiber>& fibers, const int node) {
-  const auto fiber =
-      std::find_if(fibers.begin(), fibers.end(), [node](const Fiber& f) { return node < f.first_node + f.n_nodes(); });
-  return {fiber->index, (node - fiber->first_node) / fiber->config.nodes_per_section};
+  const Fiber& fiber = find_fiber_of(fibers, node);
+  return {fiber.index, (node - fiber.first_node) / fiber.config.nodes_per_section};
 }
 
 /// What acts on sections must act on their images as its image does, as often.

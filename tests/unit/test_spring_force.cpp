@@ -11,14 +11,7 @@
 namespace skein {
 namespace {
 
-using reference::add_springs;
-using reference::deform;
-using reference::Elastic;
-using reference::Long;
-using reference::LongVec;
-using reference::make_config;
-using reference::Shape;
-using reference::shapes;
+using namespace reference;
 
 double component(const Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }
 double& component(Vec3& v, const int c) { return c == 0 ? v.x : c == 1 ? v.y : v.z; }

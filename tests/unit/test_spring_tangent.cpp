@@ -14,14 +14,7 @@
 namespace skein {
 namespace {
 
-using reference::add_springs;
-using reference::deform;
-using reference::Elastic;
-using reference::Long;
-using reference::LongVec;
-using reference::make_config;
-using reference::Shape;
-using reference::shapes;
+using namespace reference;
 
 using Nodes = std::vector<Vec3>;
 

@@ -32,6 +32,7 @@ class NodeVectors {
   /// The whole of an array, not to be changed: it may be the array itself, or serve later calls.
   /// Where ranks own nodes it is not asked for again as long as nothing changes the array.
   virtual Vectors gather(const Vectors& vectors);
+  /// The same, to be read.
   virtual ConstVectors gather_whole(const ConstVectors& vectors);
 
   /// Overwrites an array. @param whole  [n_nodes, 3]

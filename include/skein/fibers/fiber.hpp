@@ -33,6 +33,8 @@ std::vector<Fiber> make_fibers(const std::vector<FiberConfig>& configs);
 
 int count_nodes(const std::vector<Fiber>& fibers);
 int count_sections(const std::vector<Fiber>& fibers);
+/// The one that a node, of all, is on.
+const Fiber& find_fiber_of(const std::vector<Fiber>& fibers, int node);
 /// Of the longest: the unit of errors. @returns length
 double largest_length(const std::vector<Fiber>& fibers);
 

@@ -63,6 +63,7 @@ void for_each_spring(const SpringNetwork& network, const Visit& visit) {
 }
 
 std::int64_t count_springs(const SpringNetwork& network);
+std::int64_t count_springs(const std::vector<SpringNetwork>& networks);
 std::int64_t count_springs(const std::vector<Fiber>& fibers);
 
 /// Both nodes of every spring, as indices into the nodes of all fibers. @returns [n_springs]

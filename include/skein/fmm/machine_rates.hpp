@@ -30,6 +30,11 @@ struct MachineRates {
   double least_fmm_nodes;    ///< fewer are summed directly before a tree is built
   int least_leaf_size;       ///< nodes in a leaf, if the tables of orders ask for fewer
   double least_single_gain;  ///< direct sums are single where that is so many times faster, and the tolerance allows it
+
+  /// Of a direct sum. @param meets_once  each pair, for both of its nodes
+  double direct_nanoseconds(const bool meets_once, const bool is_single, const double n_pairs) const {
+    return direct_sum + (meets_once ? symmetric_direct_pair : direct_pair).of(is_single) * n_pairs;
+  }
 };
 
 /// @param path  automatic: where this build's kernels run

@@ -14,8 +14,8 @@ struct ExpectedStep {
 struct PreconditionerCost {
   double factorization = 0.0;
   double use = 0.0;  ///< of the inverse, once
-  double iterations =
-      1.0;  ///< over those with the preconditioner for which select_method expects as many as were measured
+  /// Over those with the preconditioner for which select_method expects as many as were measured.
+  double iterations = 1.0;
 };
 
 }  // namespace skein
