@@ -30,7 +30,7 @@ KOKKOS_INLINE_FUNCTION int find_in_section(const ConstVectorView<Space>& positio
 
 template <class Space>
 void seek_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position,
-                      const double max_ratio, const FoundNode& found_node) {
+                      const double max_ratio, const FoundNumber& found_node) {
   const SectionBoxes<Space> b = boxes;
   launch_reduction<Space>(
       "skein::seek_faulty_node", space, section_calls<Space>(boxes),
@@ -47,7 +47,7 @@ void seek_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, cons
 
 #define SKEIN_INSTANTIATE(S)                                                                             \
   template void seek_faulty_node<S>(const S&, const SectionBoxes<S>&, const ConstVectorView<S>&, double, \
-                                    const FoundNode&);
+                                    const FoundNumber&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

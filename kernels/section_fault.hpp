@@ -8,10 +8,7 @@
 
 namespace skein {
 
-/// A node's index that a kernel leaves for the host.
-using FoundNode = Kokkos::View<int, SharedHostMemory>;
-
-/// What FoundNode holds where there is none.
+/// What is found where there is none.
 inline constexpr int no_node = std::numeric_limits<int>::max();
 
 /// Launches a search for the smallest index of a node that is not finite, or farther from its section's centroid than
@@ -20,6 +17,6 @@ inline constexpr int no_node = std::numeric_limits<int>::max();
 /// @param found     is there after the next wait for the device
 template <class Space>
 void seek_faulty_node(const Space& space, const SectionBoxes<Space>& boxes, const ConstVectorView<Space>& position,
-                      double max_ratio, const FoundNode& found);
+                      double max_ratio, const FoundNumber& found);
 
 }  // namespace skein

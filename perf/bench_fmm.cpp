@@ -52,12 +52,14 @@ Outcome measure(Case& problem, const FmmOptions& options, const int repeats, con
     });
   const auto seconds = perf::median_seconds(repeats, bodies);
   Outcome outcome{seconds[0], with_direct ? seconds[1] : 0.0, 0.0, {}};
+  fmm.time_parts();
   if (with_direct) {
     problem.compute(direct);
     const auto exact = to_host(problem.velocity);
     problem.compute(fmm);
     outcome.error = relative_error(to_host(problem.velocity), exact);
   } else {
+    problem.compute(fmm);
     outcome.error = fmm.measure_error(problem.sources(), problem.position, 300);
   }
   outcome.statistics = fmm.statistics();

@@ -79,6 +79,8 @@ Evaluation evaluate(const Nodes& nodes, const double tolerance) {
   options.tolerance = tolerance;
   FmmMobility mobility(viscosity, options);
   const double seconds = nodes.time(mobility, nodes.position);
+  mobility.time_parts();
+  mobility.add_velocity(nodes.sources(), nodes.position, nodes.velocity);
   const FmmStatistics& s = mobility.statistics();
   const double n_surface = 6.0 * (s.plan.order - 1) * (s.plan.order - 1) + 2.0, rank = s.plan.rank;
   return {s.work.near_pairs,

@@ -79,8 +79,8 @@ void EssentialTree::move_nodes(Communicator& ranks, const HostOctree& tree, cons
 }
 
 bool EssentialTree::still_fits(Communicator& ranks, const HostOctree& tree, const SortedNodes<HostSpace>& nodes) const {
-  const bool fit = nodes_fit<HostSpace>(HostSpace(), own_leaves_, tree.cube, {nodes.position, tree.sources.order}, {});
-  const std::vector<double> all = list_from_all(ranks, {fit ? 1.0 : 0.0});
+  seek_strays<HostSpace>(HostSpace(), own_leaves_, tree.cube, {nodes.position, tree.sources.order}, {}, tree.n_strays);
+  const std::vector<double> all = list_from_all(ranks, {tree.still_fits() ? 1.0 : 0.0});
   return std::find(all.begin(), all.end(), 0.0) == all.end();
 }
 

@@ -24,8 +24,7 @@ void EssentialTree::build(Communicator& ranks, const ConstVectorView<HostSpace>&
            n_levels, tree);
   own_boxes_ = {};
   const HostSpace space;
-  build_far_lists(space, tree);
-  build_near_lists(space, tree);
+  build_lists(space, tree);
   const double far_pairs = count_far_pairs(tree);
   ask_for_nodes(ranks, tree);
   add_up(ranks, far_pairs, tree);

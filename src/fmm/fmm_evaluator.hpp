@@ -25,7 +25,9 @@ class FmmEvaluator final : public FmmSum {
 
   /// @param ranks  that share the sum; null: none
   explicit FmmEvaluator(const Workers& workers = Workers(), Communicator* ranks = nullptr)
-      : workers_(workers), ranks_(ranks) {}
+      : workers_(workers), ranks_(ranks) {
+    tree_.defers_counts = Workers::defers_counts;
+  }
 
   bool take(const Sources& sources, const ConstVectors& target) override;
   bool take_part(const Sources& own, const RankParts& parts) override;
@@ -65,7 +67,7 @@ class FmmEvaluator final : public FmmSum {
   void add_tail(const FmmPlan& plan, InPrecision<Real>& in);
   void count_work();
   double lap(LapTimer& watch) const {
-    space_.fence();
+    if (times_parts) wait_for(space_);
     return watch.lap();
   }
 
@@ -73,6 +75,7 @@ class FmmEvaluator final : public FmmSum {
   Communicator* ranks_;
   Space space_;
   UnsortedNodes<Space> nodes_;
+  NodeBounds bounds_;
   BlobRange blobs_{0.0, 0.0};
   VectorView<Space> own_velocity_;
   Octree<Space> tree_;
@@ -99,8 +102,11 @@ bool FmmEvaluator<Workers>::take(const Sources& sources, const ConstVectors& tar
   nodes_.blob = here(sources.blob);
   const bool same = are_same_nodes(sources.position, target);
   nodes_.target = same ? nodes_.position : ConstVectorView<Space>(here(target));
-  blobs_ = find_blob_range<Space>(space_, nodes_.blob);
-  return are_finite<Space>(space_, nodes_.position) && (same || are_finite<Space>(space_, nodes_.target));
+  if (keeping_.has_tree() && !is_part_) tree_.ask_whether_it_fits(space_, nodes_.position, nodes_.target);
+  const NodeCensus census = take_census<Space>(space_, nodes_.position, nodes_.target, nodes_.blob);
+  bounds_ = census.bounds;
+  blobs_ = census.blobs;
+  return census.are_finite;
 }
 
 template <class Workers>
@@ -144,8 +150,8 @@ bool FmmEvaluator<Workers>::compute(const FmmOptions& options, const FmmPlan& ch
 template <class Workers>
 void FmmEvaluator<Workers>::require_tree(const OctreeRules& rules, const bool may_keep, const double scale) {
   if (is_part_) return require_part(rules, may_keep, scale);
-  if (may_keep && keeping_.may_serve(rules) && tree_.still_fits(space_, nodes_.position, nodes_.target)) return;
-  tree_.build(space_, nodes_.position, nodes_.target, rules);
+  if (may_keep && keeping_.may_serve(rules) && tree_.still_fits()) return;
+  tree_.build(space_, nodes_.position, nodes_.target, bounds_, rules);
   note_new_tree(rules);
 }
 

@@ -18,6 +18,7 @@ class HostWorkers {
   using Space = HostSpace;
   using Exchange = RankExchange;
   static constexpr int part_targets = host_part_targets;
+  static constexpr bool defers_counts = false;
   static constexpr bool meets_pairs_once = true;  ///< where sources are targets, with one blob
 
   void take(const Space&, const Octree<Space>&) { near_matches_ = {}; }

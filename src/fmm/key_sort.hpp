@@ -32,8 +32,9 @@ inline constexpr int few_keys = on_host<Space> ? 0 : 12288;
 
 /// The first n of `sorted` by key, ascending and stable: equal keys keep their order. Only the low n_bits bits of the
 /// keys count. The result is unique, so it depends on no number of threads. Arrays may change places with the spare
-/// ones. Waits for the device.
-/// @param few  up to so many keys are compared with each other; the result does not depend on it
+/// ones.
+/// @param few  up to so many keys are compared with each other; the result does not depend on it. More are asked first
+///             whether they are sorted already, which is a wait for the device
 template <class Space>
 void sort_by_key(const Space& space, KeyedOrder<Space>& sorted, int n, int n_bits, SortSpace<Space>& memory,
                  int few = few_keys<Space>);

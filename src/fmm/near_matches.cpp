@@ -47,7 +47,7 @@ struct PartnerSinks {
 
 template <class Entry>
 void place(Lists<Entry, HostSpace>& lists, const int n, const char* label) {
-  lists.n_entries = scan_counts(HostSpace(), lists.first, 0, n, 0);
+  lists.n_entries = scan_counts(HostSpace(), lists.first, n);
   require_extent(lists.entries, static_cast<std::size_t>(lists.n_entries), label);
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "fmm/octree_geometry.hpp"
+#include "kernels/node_bounds.hpp"
 
 #include <functional>
-#include <limits>
 
 namespace skein {
 
@@ -26,12 +26,6 @@ struct OctreeRules {
   int min_sources_for_expansion = 0;  ///< fewer sources (or targets) than this are summed directly across W and X lists
 
   bool operator==(const OctreeRules&) const = default;
-};
-
-/// Empty until nodes have widened it.
-struct NodeBounds {
-  static constexpr double most = std::numeric_limits<double>::max();
-  double low[3] = {most, most, most}, high[3] = {-most, -most, -most};
 };
 
 /// Cells that some sorted keys occupy: at each level those that begin there and not at a coarser level.

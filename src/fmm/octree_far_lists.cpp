@@ -20,9 +20,16 @@ KOKKOS_INLINE_FUNCTION void list_touching(const ListSource<Space>& from, const i
   }
 }
 
+/// Entries of one box. Transfers that are met are noted, too.
 struct FarSinks {
   EntrySink<FarPair> far;
   EntrySink<int> coarse, x_direct;
+  std::uint64_t met = 0;
+
+  KOKKOS_INLINE_FUNCTION void add(const FarPair& pair) {
+    far.add(pair);
+    met |= std::uint64_t{1} << transfer_index(pair.transfer);
+  }
 };
 
 /// V and X: among the boxes that touch the parent and their children, those that do not touch box b.
@@ -44,7 +51,7 @@ KOKKOS_INLINE_FUNCTION void list_far(const ListSource<Space>& from, const int b,
     }
     for (int s = other.first_child; s < other.first_child + other.n_children; ++s) {
       const Box& child = from.boxes(s);
-      if (child.sources.count > 0 && !touch(box, child)) sinks.far.add(make_far_pair(b, s, box, child));
+      if (child.sources.count > 0 && !touch(box, child)) sinks.add(make_far_pair(b, s, box, child));
     }
   }
 }
@@ -77,33 +84,30 @@ void build_far(const Space& space, Octree<Space>& tree, const int min_sources_fo
   require_extent(tree.v_list.first, n_first, "skein::octree::v_first");
   require_extent(tree.x_list.first, n_first, "skein::octree::x_first");
   require_extent(tree.x_direct.first, n_first, "skein::octree::x_direct_first");
-  for (const bool fills : {false, true}) {
-    const ListSource<Space> from(tree);
-    const auto far = tree.v_list;
-    const auto coarse = tree.x_list, x_direct = tree.x_direct;
-    launch<Space>(
-        "skein::list_far", space, Calls{n_boxes, 500.0}, KOKKOS_LAMBDA(const int b) {
-          FarSinks sinks;
-          if (fills) {
-            sinks.far.to = far.entries.data() + far.first(b);
-            sinks.coarse.to = coarse.entries.data() + coarse.first(b);
-            sinks.x_direct.to = x_direct.entries.data() + x_direct.first(b);
-          }
-          list_far(from, b, min_sources_for_expansion, sinks);
-          if (!fills) {
-            far.first(b) = sinks.far.n;
-            coarse.first(b) = sinks.coarse.n;
-            x_direct.first(b) = sinks.x_direct.n;
-          }
-        });
-    if (fills) continue;
-    place_lists(space, tree, n_boxes, "skein::octree::list", tree.v_list, tree.x_list, tree.x_direct);
-  }
-  const auto pairs = tree.v_list.entries;
+  const ListSource<Space> from(tree);
+  const auto far_first = tree.v_list.first, coarse_first = tree.x_list.first, direct_first = tree.x_direct.first;
   launch_reduction<Space>(
-      "skein::find_transfers_met", space, Calls{tree.v_list.n_entries, 2.0},
-      KOKKOS_LAMBDA(const int k, std::uint64_t& met) { met |= std::uint64_t{1} << transfer_index(pairs(k).transfer); },
-      Kokkos::BOr<std::uint64_t>(tree.transfers));
+      "skein::count_far", space, Calls{n_boxes, 500.0},
+      KOKKOS_LAMBDA(const int b, std::uint64_t& met) {
+        FarSinks sinks;
+        list_far(from, b, min_sources_for_expansion, sinks);
+        far_first(b) = sinks.far.n;
+        coarse_first(b) = sinks.coarse.n;
+        direct_first(b) = sinks.x_direct.n;
+        met |= sinks.met;
+      },
+      Kokkos::BOr<std::uint64_t, SharedHostMemory>(tree.totals.transfers));
+  place_lists(space, tree, n_boxes, FoundTotals::v, tree.v_list, tree.x_list, tree.x_direct);
+  const auto far = tree.v_list;
+  const auto coarse = tree.x_list, x_direct = tree.x_direct;
+  launch<Space>(
+      "skein::list_far", space, Calls{n_boxes, 500.0}, KOKKOS_LAMBDA(const int b) {
+        FarSinks sinks;
+        if (far.has_room(n_boxes)) sinks.far.to = far.entries.data() + far.first(b);
+        if (coarse.has_room(n_boxes)) sinks.coarse.to = coarse.entries.data() + coarse.first(b);
+        if (x_direct.has_room(n_boxes)) sinks.x_direct.to = x_direct.entries.data() + x_direct.first(b);
+        list_far(from, b, min_sources_for_expansion, sinks);
+      });
 }
 
 }  // namespace

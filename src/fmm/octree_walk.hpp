@@ -14,10 +14,12 @@ struct ListSource {
         touching(tree.touching),
         n_touching(tree.n_touching),
         direct_first(tree.x_direct.first),
-        direct(tree.x_direct.entries) {}
+        direct(tree.x_direct.entries),
+        n_boxes(tree.n_boxes()) {}
 
   Kokkos::View<const Box*, Space> boxes;
   Kokkos::View<const int*, Space> touching, n_touching, direct_first, direct;
+  int n_boxes;
 
   /// The places in `touching` of what touches a box.
   KOKKOS_INLINE_FUNCTION IndexRange touching_of(const int box) const { return {most_touching * box, n_touching(box)}; }
@@ -63,33 +65,51 @@ KOKKOS_INLINE_FUNCTION void visit_near(const ListSource<Space>& from, const int 
       b = goes_down ? other.first_child : next_box(from, b, root);
     } while (b != root);
   }
+  if (from.direct_first(from.n_boxes) > from.direct.extent_int(0)) return;  // they found no room, and all is made again
   for (int k = from.direct_first(leaf); k < from.direct_first(leaf + 1); ++k)
     visitor.near(from.direct(k), from.boxes(from.direct(k)));
 }
 
-/// Some numbers from arrays to one.
-template <class Space, int n>
+/// Where the entries of some lists end, from their arrays to one.
+template <class Space, int n_lists>
 struct GatherTotals {
-  Kokkos::View<int*, Space> from[n];
-  int at[n];
-  Kokkos::View<int*, Space> to;
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { to(i) = from[i](at[i]); }
+  Kokkos::View<int*, Space> first[n_lists];
+  int end;
+  FoundNumbers to;
+  int at;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { to(at + i) = first[i](end); }
 };
 
-/// The arrays for entries of some lists, whose counts are in lists.first(0) .. lists.first(n - 1): one wait for all.
-template <class Space, class... Lists>
-void place_lists(const Space& space, Octree<Space>& tree, const int n, const char* label, Lists&... lists) {
-  constexpr int n_lists = sizeof...(Lists);
-  require_extent(tree.totals, n_lists, "skein::octree::totals");
-  (scan_in_place(space, lists.first, n), ...);
-  GatherTotals<Space, n_lists> gather{{lists.first...}, {}, tree.totals};
-  for (int& at : gather.at) at = n;
-  Kokkos::parallel_for("skein::gather_totals", Kokkos::RangePolicy<Space>(space, 0, n_lists), gather);
-  space.fence();
-  const auto totals = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), tree.totals);
-  int i = 0;
-  ((lists.n_entries = totals(i++)), ...);
-  (require_extent(lists.entries, static_cast<std::size_t>(lists.n_entries), label), ...);
+/// Room for as many entries as there are. False where there was less.
+template <class Entry, class Space>
+bool take_room(Lists<Entry, Space>& lists, const int n_entries) {
+  const bool had_room = n_entries <= lists.entries.extent_int(0);
+  lists.n_entries = n_entries;
+  require_extent(lists.entries, static_cast<std::size_t>(n_entries), "skein::octree::list");
+  return had_room;
 }
+
+/// Turns the counts of some lists, lists.first(0) .. lists.first(n - 1), into places. Where the tree does not defer it,
+/// waits for them and makes room.
+/// @param at  in tree.totals.entries
+template <class Space, class... Lists>
+void place_lists(const Space& space, const Octree<Space>& tree, const int n, const int at, Lists&... lists) {
+  constexpr int n_lists = sizeof...(Lists);
+  (scan_in_place(space, lists.first, n), ...);
+  const FoundNumbers& found = tree.totals.entries;
+  launch<Space>("skein::gather_totals", space, Calls{n_lists, 1.0},
+                GatherTotals<Space, n_lists>{{lists.first...}, n, found, at});
+  if (tree.defers_counts) return;
+  wait_for(space);
+  int i = at;
+  (take_room(lists, found(i++)), ...);
+}
+
+/// The parts of build_lists: touching boxes, V and X ...
+template <class Space>
+void build_far_lists(const Space& space, Octree<Space>& tree);
+/// ... then leaves with targets, U and W.
+template <class Space>
+void build_near_lists(const Space& space, Octree<Space>& tree);
 
 }  // namespace skein

@@ -24,16 +24,15 @@ class OperatorStore {
     cutoff_ = plan.singular_cutoff;
     std::vector<FmmOperators<Real>*> operators;
     for (int level = 0; level < tree.n_levels(); ++level) {
+      if (level < first_far_level) {
+        operators.push_back(nullptr);
+        continue;
+      }
       const double ratio = far_field == FarField::regularized ? blob / tree.half_width(level) : 0.0;
       auto found = kept_.find(ratio);
-      if (found == kept_.end()) {
-        if (level < first_far_level) {
-          operators.push_back(nullptr);
-          continue;
-        }
+      if (found == kept_.end())
         found =
             kept_.try_emplace(ratio, far_field, plan.order, plan.singular_cutoff, plan.transfer_tolerance, ratio).first;
-      }
       operators.push_back(&found->second);
     }
     for (std::size_t level = first_far_level; level < operators.size(); ++level) {

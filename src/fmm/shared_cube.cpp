@@ -1,6 +1,7 @@
 #include "fmm/shared_cube.hpp"
 
 #include "fmm/row_moves.hpp"
+#include "kernels/node_checks.hpp"
 
 #include <algorithm>
 #include <span>
@@ -84,8 +85,7 @@ void count_new_cells(Communicator& ranks, const std::vector<std::uint64_t>& own,
 OctreeCube choose_shared_cube(Communicator& ranks, const ConstVectorView<HostSpace>& own, const RankParts& nodes,
                               const OctreeRules& rules, HostOctree& memory) {
   const HostSpace space;
-  NodeBounds bounds;
-  widen_bounds<HostSpace>(space, own, bounds);
+  NodeBounds bounds = take_census<HostSpace>(space, own, own, {}).bounds;
   std::vector<double> told(bounds.low, bounds.low + 3);
   told.insert(told.end(), bounds.high, bounds.high + 3);
   const std::vector<double> all = list_from_all(ranks, told);

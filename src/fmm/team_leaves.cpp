@@ -159,6 +159,7 @@ struct SumLeafParts {
 
   KOKKOS_INLINE_FUNCTION void operator()(const typename TeamWorker<Space>::Team& team) const {
     using Shape = PartShape<Near>;
+    if (team.league_rank() >= parts.first(parts.n_leaves)) return;
     const TeamWorker<Space> worker{team, scratch_level};
     const auto tile = worker.template array<SharedSource<Near>>(source_tile);
     const auto density = worker.template array<Real>(n_densities);

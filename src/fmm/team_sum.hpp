@@ -30,6 +30,7 @@ class TeamWorkers {
   using Space = ExecSpace;
   using Exchange = TeamExchange;
   static constexpr int part_targets = team_part_targets;
+  static constexpr bool defers_counts = true;      ///< of trees, also where teams work on a host
   static constexpr bool meets_pairs_once = false;  ///< every pair is met from both sides, by direct sums, too
 
   /// @param team_size           threads of a team, 0: as Kokkos likes; the result does not depend on it

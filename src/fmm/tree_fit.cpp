@@ -52,22 +52,21 @@ struct CountStraysByTeams {
 }  // namespace
 
 template <class Space>
-bool nodes_fit(const Space& space, const Kokkos::View<const Box*, Space>& boxes, const OctreeCube& cube,
-               const TreeNodes<Space>& sources, const TreeNodes<Space>& targets) {
+void seek_strays(const Space& space, const Kokkos::View<const Box*, Space>& boxes, const OctreeCube& cube,
+                 const TreeNodes<Space>& sources, const TreeNodes<Space>& targets, const FoundNumber& n_strays) {
   const CountStrays<Space> count{boxes, cube, sources, targets};
+  const Kokkos::Sum<int, SharedHostMemory> sum(n_strays);
   const int n_boxes = boxes.extent_int(0);
-  int n_strays = 0;
   if constexpr (on_host<Space>)
-    Kokkos::parallel_reduce("skein::nodes_fit", Kokkos::RangePolicy<Space>(space, 0, n_boxes), count, n_strays);
+    Kokkos::parallel_reduce("skein::seek_strays", Kokkos::RangePolicy<Space>(space, 0, n_boxes), count, sum);
   else
-    Kokkos::parallel_reduce("skein::nodes_fit", Kokkos::TeamPolicy<Space>(space, n_boxes, 128),
-                            CountStraysByTeams<Space>{count}, n_strays);
-  return n_strays == 0;
+    Kokkos::parallel_reduce("skein::seek_strays", Kokkos::TeamPolicy<Space>(space, n_boxes, 128),
+                            CountStraysByTeams<Space>{count}, sum);
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                       \
-  template bool nodes_fit<S>(const S&, const Kokkos::View<const Box*, S>&, const OctreeCube&, const TreeNodes<S>&, \
-                             const TreeNodes<S>&);
+#define SKEIN_INSTANTIATE(S)                                                                                         \
+  template void seek_strays<S>(const S&, const Kokkos::View<const Box*, S>&, const OctreeCube&, const TreeNodes<S>&, \
+                               const TreeNodes<S>&, const FoundNumber&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -18,12 +18,13 @@ struct TreeNodes {
 /// docs/hydrodynamics.md.
 inline constexpr double leaf_margin = 0.05;
 
-/// True where every node is in its leaf, or outside by leaf_margin at most. False for positions that are not numbers.
-/// One launch and one wait.
-/// @param targets  empty where the sources are the targets
+/// Launches a count of the nodes that are outside of their leaves by more than leaf_margin; what is not a number is.
+/// Does not wait for the device.
+/// @param targets   empty where the sources are the targets
+/// @param n_strays  is there after the next wait
 template <class Space>
-bool nodes_fit(const Space& space, const Kokkos::View<const Box*, Space>& boxes, const OctreeCube& cube,
-               const TreeNodes<Space>& sources, const TreeNodes<Space>& targets);
+void seek_strays(const Space& space, const Kokkos::View<const Box*, Space>& boxes, const OctreeCube& cube,
+                 const TreeNodes<Space>& sources, const TreeNodes<Space>& targets, const FoundNumber& n_strays);
 
 /// When a tree that was built for one sum serves the next one: between the begin and the end of a step, where nodes
 /// move little from sum to sum, as long as the rules stay. Outside of steps every sum has a tree of its own and depends
@@ -36,6 +37,7 @@ class TreeKeeping {
   }
   void end_step() { keeps_ = has_tree_ = false; }
 
+  bool has_tree() const { return has_tree_; }
   bool may_serve(const OctreeRules& rules) const { return has_tree_ && rules == rules_; }
   void note_new_tree(const OctreeRules& rules) {
     has_tree_ = keeps_;

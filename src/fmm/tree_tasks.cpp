@@ -9,7 +9,7 @@ namespace skein {
 template <class Space>
 void LeafParts<Space>::build(const Space& space, const Octree<Space>& tree, const int most_targets,
                              const IndexRange wanted) {
-  const int n_leaves = tree.n_target_leaves;
+  n_leaves = tree.n_target_leaves;
   require_extent(first, static_cast<std::size_t>(n_leaves) + 1, "skein::leaf_parts::first");
   const auto boxes = tree.boxes;
   const auto leaves = tree.target_leaves;
@@ -20,7 +20,8 @@ void LeafParts<Space>::build(const Space& space, const Octree<Space>& tree, cons
         const bool is_wanted = targets.first >= wanted.first && targets.first < wanted.first + wanted.count;
         begin(i) = is_wanted ? math::ceil_div(targets.count, most_targets) : 0;
       });
-  n_parts = scan_counts(space, first, 0, n_leaves, 0);
+  scan_in_place(space, first, n_leaves);
+  n_parts = tree.defers_counts ? n_leaves + tree.n_targets / most_targets : read_number(first, n_leaves);
   require_extent(leaf, static_cast<std::size_t>(n_parts), "skein::leaf_parts::leaf");
   require_extent(place, static_cast<std::size_t>(n_parts), "skein::leaf_parts::place");
   const auto leaf_of = leaf, place_of = place;
@@ -71,7 +72,7 @@ void FarOrder<Space>::keep(const Space& space, Octree<Space>& tree, const IndexR
   launch<Space>(
       "skein::mark_own_far_pairs", space, Calls{n, 5.0},
       KOKKOS_LAMBDA(const int i) { n_before(i) = overlap(boxes(far(all.order(i)).target).targets, own); });
-  n_kept = scan_counts(space, n_before_, 0, n, 0);
+  n_kept = scan_counts(space, n_before_, n);
   KeyedOrder<Space>& spare = tree.sort_memory.spare;
   spare.require(static_cast<std::size_t>(n_kept));
   const auto kept = spare;

@@ -11,8 +11,9 @@ template <class Space>
 struct LeafParts {
   Kokkos::View<int*, Space> leaf;   ///< of each part
   Kokkos::View<int*, Space> place;  ///< of each part, among those of its leaf
-  int n_parts = 0;
-  Kokkos::View<int*, Space> first;  ///< per target leaf its first part
+  Kokkos::View<int*, Space> first;  ///< per target leaf its first part; at the end, their number
+  int n_leaves = 0;
+  int n_parts = 0;  ///< or more, where the tree defers a look at it
 
   /// @param wanted  places of targets in the tree's order: parts of leaves elsewhere are left out
   void build(const Space& space, const Octree<Space>& tree, int most_targets, IndexRange wanted);

@@ -71,6 +71,8 @@ FmmMobility::~FmmMobility() = default;
 
 const FmmStatistics& FmmMobility::statistics() const { return sum_->statistics; }
 
+void FmmMobility::time_parts(const bool on) { sum_->times_parts = on; }
+
 void FmmMobility::add_velocity(const Sources& sources, const ConstVectors& target, const Vectors& velocity) {
   SKEIN_REQUIRE(
       sources.position.extent(0) == sources.force.extent(0) && sources.position.extent(0) == sources.blob.extent(0),

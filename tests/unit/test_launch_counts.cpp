@@ -6,57 +6,20 @@
 
 #include "runs/observables.hpp"
 #include "tests/support/direct_physics.hpp"
+#include "tests/support/launch_counts.hpp"
 #include "tests/support/nan_trap.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace skein {
 namespace {
 
-/// Kernels, reductions that bring a number to the host, copies and fills, and waits: what Kokkos tells its tools.
-struct Launches {
-  int kernels = 0, reductions = 0, copies = 0, fences = 0;
-  friend bool operator==(const Launches&, const Launches&) = default;
-};
-Launches counted;
-
-void count_kernel(const char*, std::uint32_t, std::uint64_t*) { ++counted.kernels; }
-void count_reduction(const char*, std::uint32_t, std::uint64_t*) { ++counted.reductions; }
-void count_copy(Kokkos::Tools::SpaceHandle, const char*, const void*, Kokkos::Tools::SpaceHandle, const char*,
-                const void*, std::uint64_t) {
-  ++counted.copies;
-}
-
-/// But those that Kokkos makes for its tools' sake.
-void count_fence(const char* name, std::uint32_t, std::uint64_t*) {
-  counted.fences += std::string_view(name).find("Profile Tool") == std::string_view::npos;
-}
-
-/// Counts from its beginning to its end.
-class Counting {
- public:
-  Counting() {
-    counted = {};
-    Kokkos::Tools::Experimental::set_begin_parallel_for_callback(count_kernel);
-    Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(count_kernel);
-    Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(count_reduction);
-    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(count_copy);
-    Kokkos::Tools::Experimental::set_begin_fence_callback(count_fence);
-  }
-  ~Counting() {
-    Kokkos::Tools::Experimental::set_begin_parallel_for_callback(nullptr);
-    Kokkos::Tools::Experimental::set_begin_parallel_scan_callback(nullptr);
-    Kokkos::Tools::Experimental::set_begin_parallel_reduce_callback(nullptr);
-    Kokkos::Tools::Experimental::set_begin_deep_copy_callback(nullptr);
-    Kokkos::Tools::Experimental::set_begin_fence_callback(nullptr);
-  }
-};
+using test::Counting;
+using test::Launches;
 
 /// Many short fibers on a grid, far from each other.
 SceneConfig make_scene(const int n_fibers) {
@@ -87,7 +50,7 @@ Launches count_step(const int n_fibers) {
   EXPECT_EQ(report.stages, 2);
   make_step_record(physics, state, report, physics.sections.look(state.position));
   make_frame(physics, state.step, state.time, state.position);
-  return counted;
+  return counting.so_far();
 }
 
 TEST(LaunchCounts, OfAStepItsRecordAndItsFrameDoNotGrowWithTheNumberOfFibers) {
@@ -105,8 +68,8 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsOneLaunchAndOneWait) {
     const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
     const Counting counting;
     EXPECT_EQ(physics.sections.find_faulty_node(position, 2.0), -1);
-    EXPECT_EQ(counted.reductions, 1);
-    EXPECT_EQ(counted.kernels + counted.copies, 0);
+    EXPECT_EQ(counting.so_far().reductions, 1);
+    EXPECT_EQ(counting.so_far().kernels + counting.so_far().copies, 0);
   }
 }
 
@@ -122,13 +85,13 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsNoWaitWhereTheCallerHasOne) {
   {
     const Counting counting;
     dynamics.seek_fault(other);
-    EXPECT_EQ(counted, (Launches{.reductions = 1}));
+    EXPECT_EQ(counting.so_far(), (Launches{.reductions = 1}));
   }
   ExecSpace().fence();
   {
     const Counting counting;
     EXPECT_NE(dynamics.find_fault(other).find("node 7"), std::string::npos);
-    EXPECT_EQ(counted.reductions, 0);
+    EXPECT_EQ(counting.so_far().reductions, 0);
   }
   // What was sought serves once, and for the positions that it was sought at.
   dynamics.seek_fault(other);
@@ -144,8 +107,8 @@ TEST(LaunchCounts, OfTheLookAtSectionsAreFiveAndACopy) {
     const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
     const Counting counting;
     const SectionRecord record = physics.sections.look(position);
-    EXPECT_EQ(counted.kernels, 3);
-    EXPECT_EQ(counted.reductions, 2);
+    EXPECT_EQ(counting.so_far().kernels, 3);
+    EXPECT_EQ(counting.so_far().reductions, 2);
     EXPECT_EQ(record.centreline.size(), 3u * static_cast<unsigned>(n_fibers));
   }
 }
@@ -176,7 +139,7 @@ TEST(LaunchCounts, OfAnEvaluationByDirectSumsOnADeviceAreFourAndNoWait) {
   dynamics.compute_velocity(0.0, position, velocity);
   const Counting counting;
   dynamics.compute_velocity(0.0, position, velocity);
-  EXPECT_EQ(counted, (Launches{.kernels = 4}));
+  EXPECT_EQ(counting.so_far(), (Launches{.kernels = 4}));
 }
 
 struct CountedStep {
@@ -195,7 +158,7 @@ CountedStep count_rkc2_step(const double dt) {
   integrator->advance(state, 1.0);
   const Counting counting;
   const int stages = integrator->advance(state, 1.0).stages;
-  return {stages, counted};
+  return {stages, counting.so_far()};
 }
 
 // A stage is an evaluation and one combination; a step has a wait, for its error and for faults.

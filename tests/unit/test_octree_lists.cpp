@@ -54,6 +54,9 @@ struct ReadLists {
 
 class TreeCheck {
  public:
+  /// Trees whose counts are looked at one by one, as on hosts, or together, as on devices.
+  explicit TreeCheck(const bool defers_counts) { tree_.defers_counts = defers_counts; }
+
   void check(const std::vector<Vec3>& source, const std::vector<Vec3>& target, const OctreeRules& rules) {
     tree_.build(ExecSpace(), to_device("source", source), to_device("target", target), rules);
     expect_right(source, target);
@@ -198,9 +201,12 @@ TEST(KeySort, IsStableAndLooksAtTheLowBits) {
     }
 }
 
-TEST(OctreeLists, AreThoseOfTheDefinitions) {
+/// Whether counts are deferred.
+class OctreeLists : public testing::TestWithParam<bool> {};
+
+TEST_P(OctreeLists, AreThoseOfTheDefinitions) {
   Random random(11);
-  TreeCheck trees;
+  TreeCheck trees(GetParam());
   for (const Cloud cloud : reference::all_clouds)
     for (const int leaf_size : {1, 6, 40})
       for (const int min_sources : {0, 9, 1000}) {
@@ -215,9 +221,9 @@ TEST(OctreeLists, AreThoseOfTheDefinitions) {
       }
 }
 
-TEST(OctreeLists, AreRightForManyNodes) {
+TEST_P(OctreeLists, AreRightForManyNodes) {
   Random random(12);
-  TreeCheck trees;
+  TreeCheck trees(GetParam());
   trees.check(reference::make_cloud(Cloud::cube, 40000, {}, 1.0, random), rules_for(50, 56));
   OctreeRules quantized = rules_for(30, 20);
   quantized.has_quantized_cells = true;
@@ -225,9 +231,9 @@ TEST(OctreeLists, AreRightForManyNodes) {
   trees.check(make_spiral(9000), rules_for(20, 8));
 }
 
-TEST(OctreeLists, AreRightForBadInput) {
+TEST_P(OctreeLists, AreRightForBadInput) {
   Random random(13);
-  TreeCheck trees;
+  TreeCheck trees(GetParam());
   const OctreeRules rules = rules_for(4, 6);
   const std::vector<Vec3> one = {{0.3, -2.0, 5.0}};
   trees.check(one, rules);
@@ -247,6 +253,24 @@ TEST(OctreeLists, AreRightForBadInput) {
   trees.check(line, rules);
   trees.check(line, twice, rules);
 }
+
+// Chains of boxes down to nodes that no box can tell apart: more boxes than there was room for, again and again.
+TEST_P(OctreeLists, AreRightWhereTreesOutgrowTheirMemory) {
+  Random random(14);
+  const OctreeRules rules = rules_for(8, 3);
+  for (const int n_places : {1, 3, 40, 300}) {
+    TreeCheck fresh(GetParam());
+    const auto places = reference::make_cloud(Cloud::cube, n_places, {0.2, 0.1, 0.0}, 1.0, random);
+    std::vector<Vec3> nodes;
+    for (int k = 0; k < 25; ++k) nodes.insert(nodes.end(), places.begin(), places.end());
+    fresh.check(nodes, rules);
+    fresh.check(reference::make_cloud(Cloud::cluster, 900, {}, 1.0, random), nodes, rules);
+    fresh.check(nodes, rules);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, OctreeLists, testing::Bool(),
+                         [](const auto& test) { return test.param ? "LookedAtTogether" : "LookedAtOneByOne"; });
 
 }  // namespace
 }  // namespace skein

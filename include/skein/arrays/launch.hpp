@@ -46,4 +46,11 @@ requires(requires { typename Reducers::reducer; } && ...)  // a number by itself
   Kokkos::parallel_reduce(label, Kokkos::RangePolicy<Space>(space, 0, calls.number), kernel, reducers...);
 }
 
+/// Waits until all that was launched is done. Kokkos' tools hear of it on hosts, too, where nothing is waited for.
+template <class Space>
+void wait_for(const Space& space) {
+  Kokkos::Profiling::markEvent("skein::wait");
+  space.fence();
+}
+
 }  // namespace skein

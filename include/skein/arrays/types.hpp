@@ -24,6 +24,9 @@ using ConstScalarView = std::type_identity_t<Kokkos::View<const double*, Kokkos:
 using ExecSpace = Kokkos::DefaultExecutionSpace;
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
+/// An integer that a kernel leaves for the host, which has it after the next wait for the device.
+using FoundNumber = Kokkos::View<int, SharedHostMemory>;
+
 using Vectors = VectorView<ExecSpace>;
 using ConstVectors = ConstVectorView<ExecSpace>;
 using Scalars = ScalarView<ExecSpace>;

@@ -23,7 +23,7 @@ struct FmmStatistics {
   FmmWork work;
   bool used_direct_sum = false;  ///< the lists showed that it costs less, or the tolerance is out of reach
   double memory_bytes = 0.0;     ///< of the tree, the nodes' copies, coefficients and operators
-  /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves.
+  /// Wall time, s: operators first met, tree, copies of the nodes, passes over the boxes, leaves. See times_parts.
   double operators_seconds = 0.0, tree_seconds = 0.0, sort_seconds = 0.0, far_seconds = 0.0, leaf_seconds = 0.0;
 };
 
@@ -50,6 +50,9 @@ class FmmSum {
   virtual std::vector<Vec3> sample(const EvenSample& sample) const = 0;
 
   FmmStatistics statistics;
+  /// The parts of a sum wait for each other, so that the seconds in the statistics are theirs. On devices that takes
+  /// time.
+  bool times_parts = on_host<ExecSpace>;
 
   /// With ranks: who has the velocities of which targets in the end, consecutive ones each; `add_to` then takes this
   /// rank's. Empty, as at first: rank 0 has all. To be set alike on all ranks before `compute`.

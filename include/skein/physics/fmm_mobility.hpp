@@ -46,6 +46,9 @@ class FmmMobility final : public Mobility {
   double measure_error(const Sources& sources, const ConstVectors& target, int n_sample);
 
   const FmmStatistics& statistics() const;
+  /// Whether from here on the seconds in the statistics are those of the parts: on hosts they are, on devices that
+  /// takes some waiting.
+  void time_parts(bool on = true);
 
  private:
   FmmTargets place_of(const Sources& sources, const ConstVectors& target) const;

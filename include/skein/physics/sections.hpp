@@ -92,7 +92,7 @@ class Sections {
   std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
   std::unique_ptr<TubeSurfaces<ExecSpace>> surfaces_;
   Scalars depth_;  ///< [n_nodes], of nodes in surfaces, length
-  Kokkos::View<int, SharedHostMemory> faulty_node_;
+  FoundNumber faulty_node_;
 };
 
 }  // namespace skein
