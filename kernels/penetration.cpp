@@ -22,7 +22,7 @@ struct PenetrationSearch {
   TubeSurfaces<Space> surfaces;
   ScalarView<Space> depth;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int item, int& count, double& deepest) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const int item, int& count) const {
     const int block = item / items_per_block;
     const int f = surfaces.sections.fiber_of_block(block);
     const FiberSections& fiber = surfaces.sections.fiber(f);
@@ -36,10 +36,7 @@ struct PenetrationSearch {
     const int first_node = fiber.first_node_of(section) + share, end_node = fiber.first_node_of(end);
     for (int node = first_node; node < end_node; node += n_shares) depth(node) = 0.0;
     search(f, section, end, share);
-    for (int node = first_node; node < end_node; node += n_shares) {
-      count += depth(node) > 0.0;
-      if (depth(node) > deepest) deepest = depth(node);
-    }
+    for (int node = first_node; node < end_node; node += n_shares) count += depth(node) > 0.0;
   }
 
   /// What sections [first, end) of a fiber do not see of their own.
@@ -145,20 +142,30 @@ struct PenetrationSearch {
 }  // namespace
 
 template <class Space>
-NodesInside compute_penetration(const Space& space, const TubeSurfaces<Space>& surfaces,
-                                const ScalarView<Space>& depth) {
+void seek_nodes_inside(const Space& space, const TubeSurfaces<Space>& surfaces, const ScalarView<Space>& depth,
+                       const FoundNumber& n_inside) {
   SKEIN_REQUIRE(depth.extent(0) == surfaces.position.extent(0), "one depth for each node is needed");
   using Search = PenetrationSearch<Space>;
-  NodesInside inside;
-  launch_reduction<Space>("skein::compute_penetration", space,
+  launch_reduction<Space>("skein::seek_nodes_inside", space,
                           Calls{surfaces.sections.fiber_of_block.extent_int(0) * Search::items_per_block, 2.5e3},
-                          Search{surfaces, depth}, Kokkos::Sum<int>(inside.count), Kokkos::Max<double>(inside.depth));
-  if (inside.count == 0) inside.depth = 0.0;
-  return inside;
+                          Search{surfaces, depth}, Kokkos::Sum<int, SharedHostMemory>(n_inside));
 }
 
-#define SKEIN_INSTANTIATE(S) \
-  template NodesInside compute_penetration<S>(const S&, const TubeSurfaces<S>&, const ScalarView<S>&);
+template <class Space>
+double find_largest_depth(const Space& space, const ScalarView<Space>& depth) {
+  double largest = 0.0;
+  launch_reduction<Space>(
+      "skein::find_largest_depth", space, Calls{depth.extent_int(0), 1.0},
+      KOKKOS_LAMBDA(const int node, double& most) {
+        if (depth(node) > most) most = depth(node);
+      },
+      Kokkos::Max<double>(largest));
+  return largest;
+}
+
+#define SKEIN_INSTANTIATE(S)                                                                                      \
+  template void seek_nodes_inside<S>(const S&, const TubeSurfaces<S>&, const ScalarView<S>&, const FoundNumber&); \
+  template double find_largest_depth<S>(const S&, const ScalarView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

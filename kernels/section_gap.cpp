@@ -68,16 +68,18 @@ struct BlockGap {
 }  // namespace
 
 template <class Space>
-double compute_smallest_gap(const Space& space, const SectionBoxes<Space>& boxes) {
-  double smallest = infinity;
+void seek_smallest_gap(const Space& space, const SectionBoxes<Space>& boxes, const FoundReal& gap) {
   launch_reduction<Space>(
-      "skein::compute_smallest_gap", space,
+      "skein::seek_smallest_gap", space,
       Calls{boxes.fiber_of_block.extent_int(0) * BlockGap<Space>::items_per_block, 16.0 * boxes.centroid.extent_int(0)},
-      BlockGap<Space>{boxes}, Kokkos::Min<double>(smallest));
-  return smallest < std::numeric_limits<double>::max() ? smallest : infinity;  // the reduction begins with the latter
+      BlockGap<Space>{boxes}, Kokkos::Min<double, SharedHostMemory>(gap));
 }
 
-#define SKEIN_INSTANTIATE(S) template double compute_smallest_gap<S>(const S&, const SectionBoxes<S>&);
+double found_gap(const FoundReal& gap) {
+  return gap() < std::numeric_limits<double>::max() ? gap() : infinity;  // the reduction begins with the latter
+}
+
+#define SKEIN_INSTANTIATE(S) template void seek_smallest_gap<S>(const S&, const SectionBoxes<S>&, const FoundReal&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

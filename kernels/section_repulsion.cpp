@@ -60,10 +60,9 @@ struct ChangeTerm {
   }
 };
 
-template <class Space>
 struct EnergyTerm {
   using Value = double;
-  ScalarView<Space> energy;
+  FoundReals energy;
   KOKKOS_INLINE_FUNCTION double value(const SectionPair& pair) const {
     return pair.scale * pair.closeness * pair.closeness * pair.closeness / 6.0;
   }
@@ -204,9 +203,9 @@ void add_section_repulsion_change(const Space& space, const SectionBoxes<Space>&
 
 template <class Space>
 void compute_repulsion_energy(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-                              const ScalarView<Space>& energy) {
+                              const FoundReals& energy) {
   SKEIN_REQUIRE(energy.extent(0) == boxes.centroid.extent(0), "one energy for each section is needed");
-  gather("skein::compute_repulsion_energy", space, boxes, law, all_blocks<Space>(boxes), EnergyTerm<Space>{energy});
+  gather("skein::compute_repulsion_energy", space, boxes, law, all_blocks<Space>(boxes), EnergyTerm{energy});
 }
 
 template <class Space>
@@ -218,14 +217,13 @@ void compute_repulsion_moment(const Space& space, const SectionBoxes<Space>& box
          MomentTerm<Space>{diagonal, mixed});
 }
 
-#define SKEIN_INSTANTIATE(S)                                                                                       \
-  template void add_section_repulsion<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, IndexRange,        \
-                                         const VectorView<S>&);                                                    \
-  template void add_section_repulsion_change<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, IndexRange, \
-                                                const ConstVectorView<S>&, const VectorView<S>&);                  \
-  template void compute_repulsion_energy<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                 \
-                                            const ScalarView<S>&);                                                 \
-  template void compute_repulsion_moment<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                 \
+#define SKEIN_INSTANTIATE(S)                                                                                           \
+  template void add_section_repulsion<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, IndexRange,            \
+                                         const VectorView<S>&);                                                        \
+  template void add_section_repulsion_change<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, IndexRange,     \
+                                                const ConstVectorView<S>&, const VectorView<S>&);                      \
+  template void compute_repulsion_energy<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&, const FoundReals&); \
+  template void compute_repulsion_moment<S>(const S&, const SectionBoxes<S>&, const RepulsionLaw&,                     \
                                             const VectorView<S>&, const VectorView<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 

@@ -37,7 +37,7 @@ void add_section_repulsion_change(const Space& space, const SectionBoxes<Space>&
 /// Overwrites energy, [n_sections], with half of the energy of each pair that a section is in.
 template <class Space>
 void compute_repulsion_energy(const Space& space, const SectionBoxes<Space>& boxes, const RepulsionLaw& law,
-                              const ScalarView<Space>& energy);
+                              const FoundReals& energy);
 
 /// Overwrites the moment of each section with the sum of d f / 2 over its pairs, d from the other centroid and f the
 /// force on the section: a symmetric matrix, diagonal (xx, yy, zz) and mixed (yz, xz, xy), each [n_sections, 3].

@@ -20,28 +20,29 @@ KOKKOS_INLINE_FUNCTION StencilPointers stencil_of(const SpringArrays<Space>& spr
   return {springs.stiffness.data() + fiber.first_entry, springs.inverse_rest_length.data() + fiber.first_entry};
 }
 
-/// Energy of the springs inside a section and from it to later ones.
+/// Energy of the springs from a node to later ones; widens the largest strain by theirs.
 template <class Space>
-KOKKOS_INLINE_FUNCTION double energy_from_section(const SpringArrays<Space>& springs,
-                                                  const ConstVectorView<Space>& position, const int global_section) {
-  const FiberSprings fiber = springs.fiber(springs.fiber_of_section(global_section));
+KOKKOS_INLINE_FUNCTION double energy_from_node(const SpringArrays<Space>& springs,
+                                               const ConstVectorView<Space>& position, const int node,
+                                               double& largest_strain) {
+  const FiberSprings fiber = springs.fiber(springs.fiber_of_node(node));
   const StencilPointers stencil = stencil_of(springs, fiber);
   const int n = fiber.nodes_per_section;
-  const int section = global_section - fiber.first_section;
-  const int first = fiber.first_node + section * n;
+  const int section = (node - fiber.first_node) / n, a = (node - fiber.first_node) % n;
   const int last_offset = math::smaller(fiber.reach, fiber.n_sections - 1 - section);
-
+  const Vec3 x = load(position, node);
   double energy = 0.0;
   for (int offset = 0; offset <= last_offset; ++offset) {
     const double factor = spring_factor<Space>(springs, fiber, section, section + offset);
-    for (int a = 0; a < n; ++a) {
-      const Vec3 x = load(position, first + a);
-      for (int b = offset == 0 ? a + 1 : 0; b < n; ++b) {
-        const int entry = offset * n + (b >= a ? b - a : b - a + n);
-        const double inverse_rest_length = stencil.inverse_rest_length[entry];
-        const double strain = norm(x - load(position, first + offset * n + b)) * inverse_rest_length - 1.0;
-        energy += 0.5 * factor * stencil.stiffness[entry] / inverse_rest_length * strain * strain;
-      }
+    for (int b = offset == 0 ? a + 1 : 0; b < n; ++b) {
+      const int entry = offset * n + (b >= a ? b - a : b - a + n);
+      const double stiffness = stencil.stiffness[entry];
+      if (stiffness == 0.0) continue;
+      const double inverse_rest_length = stencil.inverse_rest_length[entry];
+      const double strain = norm(x - load(position, node - a + offset * n + b)) * inverse_rest_length - 1.0;
+      energy += 0.5 * factor * stiffness / inverse_rest_length * strain * strain;
+      const double size = strain < 0.0 ? -strain : strain;
+      if (size > largest_strain) largest_strain = size;
     }
   }
   return energy;
@@ -106,18 +107,28 @@ void add_spring_force(const Space& space, const SpringArrays<Space>& springs, co
 }
 
 template <class Space>
-void compute_section_energy(const Space& space, const SpringArrays<Space>& springs,
-                            const ConstVectorView<Space>& position, const ScalarView<Space>& section_energy) {
+void seek_spring_measures(const Space& space, const SpringArrays<Space>& springs,
+                          const ConstVectorView<Space>& position, const SpringMeasures<Space>& measures) {
   SKEIN_REQUIRE(position.extent(0) == springs.fiber_of_node.extent(0),
                 "positions and nodes of the springs differ in number");
-  SKEIN_REQUIRE(section_energy.extent(0) == springs.fiber_of_section.extent(0),
-                "one energy for each section is needed");
-  const int n_sections = section_energy.extent_int(0);
-  const double nodes_per_section = 1.0 * position.extent_int(0) / math::larger(1, n_sections);
+  SKEIN_REQUIRE(measures.node_energy.extent(0) == position.extent(0) &&
+                    measures.section_energy.extent(0) == springs.fiber_of_section.extent(0),
+                "one energy for each node and for each section is needed");
+  const SpringMeasures<Space> to = measures;
+  launch_reduction<Space>(
+      "skein::compute_node_energy", space, Calls{position.extent_int(0), 100.0},
+      KOKKOS_LAMBDA(const int node, double& largest_strain) {
+        to.node_energy(node) = energy_from_node<Space>(springs, position, node, largest_strain);
+      },
+      Kokkos::Max<double, SharedHostMemory>(measures.largest_strain));
   launch<Space>(
-      "skein::compute_section_energy", space, Calls{n_sections, 3.0 * nodes_per_section * nodes_per_section},
-      KOKKOS_LAMBDA(const int section) {
-        section_energy(section) = energy_from_section<Space>(springs, position, section);
+      "skein::compute_section_energy", space, Calls{measures.section_energy.extent_int(0), 10.0},
+      KOKKOS_LAMBDA(const int global_section) {
+        const FiberSprings fiber = springs.fiber(springs.fiber_of_section(global_section));
+        const int n = fiber.nodes_per_section, first = fiber.first_node + (global_section - fiber.first_section) * n;
+        double energy = 0.0;
+        for (int node = first; node < first + n; ++node) energy += to.node_energy(node);
+        to.section_energy(global_section) = energy;
       });
 }
 
@@ -128,8 +139,8 @@ void compute_section_energy(const Space& space, const SpringArrays<Space>& sprin
                                              const VectorView<S>&);                                                   \
   template void compute_spring_force_by_nodes<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,         \
                                                  const VectorView<S>&);                                               \
-  template void compute_section_energy<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,                \
-                                          const ScalarView<S>&);
+  template void seek_spring_measures<S>(const S&, const SpringArrays<S>&, const ConstVectorView<S>&,                  \
+                                        const SpringMeasures<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

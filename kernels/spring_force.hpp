@@ -66,10 +66,17 @@ template <class Space>
 void compute_spring_force_by_nodes(const Space& space, const SpringArrays<Space>& springs,
                                    const ConstVectorView<Space>& position, const VectorView<Space>& force);
 
-/// Overwrites section_energy, [n_sections], with sum k l (r/l - 1)^2 / 2 over the springs inside each section and from
-/// it to later sections.
+/// What springs are asked for beside their forces.
 template <class Space>
-void compute_section_energy(const Space& space, const SpringArrays<Space>& springs,
-                            const ConstVectorView<Space>& position, const ScalarView<Space>& section_energy);
+struct SpringMeasures {
+  FoundReals section_energy;  ///< [n_sections], sum k l (r/l - 1)^2 / 2 over the springs inside each and to later ones
+  FoundReal largest_strain;   ///< |r/l - 1| of any spring, r its length and l that at rest; below 0 without springs
+  ScalarView<Space> node_energy;  ///< [n_nodes], scratch
+};
+
+/// Launches the search for them; they are there after the next wait for the device. Each sum has a fixed order.
+template <class Space>
+void seek_spring_measures(const Space& space, const SpringArrays<Space>& springs,
+                          const ConstVectorView<Space>& position, const SpringMeasures<Space>& measures);
 
 }  // namespace skein

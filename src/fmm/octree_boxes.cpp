@@ -1,124 +1,38 @@
-#include "fmm/octree.hpp"
+#include "fmm/level_boxes.hpp"
 
 #include <algorithm>
 
-// The boxes of a tree, level by level, from sorted keys.
+// Where the root of a tree lies and how far it is divided, from bounds and a sample of the nodes; keys of the nodes;
+// and from sorted keys the boxes, level by level.
 
 namespace skein {
 namespace {
 
-/// First place in [first, last) whose key belongs to an octant above `octant`.
-template <class Keys>
-KOKKOS_INLINE_FUNCTION int find_octant_end(const Keys& key, int first, int last, const int shift,
-                                           const std::uint64_t octant) {
-  while (first < last) {
-    const int middle = first + (last - first) / 2;
-    if ((key(middle) >> shift & 7) <= octant)
-      first = middle + 1;
-    else
-      last = middle;
-  }
-  return first;
+template <class Space>
+using Nodes = ConstVectorView<Space>;
+
+template <class Space>
+SampledCells sample_cells(const Space& space, const Nodes<Space>& nodes, const KeyOf& key_of, const int stride,
+                          Octree<Space>& tree) {
+  constexpr int n_levels = max_key_depth + 1;
+  SampledCells cells;
+  cells.n_keys = math::ceil_div(nodes.extent_int(0), stride);
+  tree.sources.require(static_cast<std::size_t>(cells.n_keys));
+  make_keys<Space>(space, nodes, key_of, stride, tree.sources);
+  sort_by_key(space, tree.sources, cells.n_keys, 3 * max_key_depth, tree.sort_memory);
+  tree.require_marks();
+  const auto n_new = tree.marks;
+  Kokkos::deep_copy(space, n_new, 0);
+  const auto key = tree.sources.key;
+  Kokkos::parallel_for(
+      "skein::sample_cells", Kokkos::RangePolicy<Space>(space, 1, math::larger(1, cells.n_keys)),
+      KOKKOS_LAMBDA(const int i) {
+        if (key(i) != key(i - 1)) Kokkos::atomic_add(&n_new(separating_level(key(i), key(i - 1))), 1);
+      });
+  const FoundNumbers& found = tree.read_marks(space, n_levels);
+  for (int level = 1; level < n_levels; ++level) cells.n_new_cells[level] = found(level);
+  return cells;
 }
-
-/// Where the nodes of a box's octants begin; octant 8 ends them.
-struct OctantBounds {
-  int source[9], target[9];
-  KOKKOS_INLINE_FUNCTION IndexRange sources(const int octant) const {
-    return {source[octant], source[octant + 1] - source[octant]};
-  }
-  KOKKOS_INLINE_FUNCTION IndexRange targets(const int octant) const {
-    return {target[octant], target[octant + 1] - target[octant]};
-  }
-  KOKKOS_INLINE_FUNCTION bool has(const int octant) const {
-    return sources(octant).count > 0 || targets(octant).count > 0;
-  }
-};
-
-/// The boxes of one level, and how they are split.
-template <class Space>
-struct LevelBoxes {
-  static constexpr int n_inner = 7;  ///< ends of octants that are not the box's
-
-  Kokkos::View<Box*, Space> boxes;
-  Kokkos::View<int*, Space> level_first;
-  Kokkos::View<std::uint64_t*, Space> source_key, target_key;
-  Kokkos::View<int*, Space> octant_end;  ///< of sources, n_inner to a box of the level, then of targets
-  int level, n_most, split_above, shift;
-  bool same_nodes;
-
-  LevelBoxes(const Octree<Space>& tree, const int of_level, const int n_boxes_at_most)
-      : boxes(tree.boxes),
-        level_first(tree.marks),
-        source_key(tree.sources.key),
-        target_key(tree.targets.key),
-        octant_end(tree.octant_end),
-        level(of_level),
-        n_most(n_boxes_at_most),
-        split_above(tree.cube.split_above(of_level)),
-        shift(3 * (tree.cube.max_depth - of_level - 1)),
-        same_nodes(tree.same_nodes) {}
-
-  /// Of the whole tree, that of the k-th of the level.
-  KOKKOS_INLINE_FUNCTION int index(const int k) const { return level_first(level) + k; }
-  /// False beyond the boxes of the level, all of them where they found no room.
-  KOKKOS_INLINE_FUNCTION bool exists(const int k) const {
-    const int end = level_first(level + 1);
-    return index(k) < end && end <= boxes.extent_int(0);
-  }
-  KOKKOS_INLINE_FUNCTION bool is_split(const Box& box) const {
-    return math::larger(box.sources.count, box.targets.count) > split_above;
-  }
-  KOKKOS_INLINE_FUNCTION bool is_split(const int k) const { return exists(k) && is_split(boxes(index(k))); }
-
-  /// Searches for the end of one octant of the k-th box.
-  KOKKOS_INLINE_FUNCTION void find_end(const int k, const int octant) const {
-    if (!exists(k)) return;
-    const Box& box = boxes(index(k));
-    if (!is_split(box)) return;
-    const auto bits = static_cast<std::uint64_t>(octant);
-    octant_end(n_inner * k + octant) =
-        find_octant_end(source_key, box.sources.first, box.sources.first + box.sources.count, shift, bits);
-    if (!same_nodes)
-      octant_end(n_inner * (n_most + k) + octant) =
-          find_octant_end(target_key, box.targets.first, box.targets.first + box.targets.count, shift, bits);
-  }
-
-  /// Of a box that is split.
-  KOKKOS_INLINE_FUNCTION OctantBounds bounds(const int k, const Box& box) const {
-    OctantBounds bounds;
-    bounds.source[0] = box.sources.first;
-    bounds.target[0] = box.targets.first;
-    for (int octant = 0; octant < n_inner; ++octant) {
-      bounds.source[octant + 1] = octant_end(n_inner * k + octant);
-      bounds.target[octant + 1] = octant_end(n_inner * (same_nodes ? k : n_most + k) + octant);
-    }
-    bounds.source[8] = box.sources.first + box.sources.count;
-    bounds.target[8] = box.targets.first + box.targets.count;
-    return bounds;
-  }
-  KOKKOS_INLINE_FUNCTION int count_children(const int k) const {
-    if (!is_split(k)) return 0;
-    const OctantBounds of_octants = bounds(k, boxes(index(k)));
-    int n = 0;
-    for (int octant = 0; octant < 8; ++octant) n += of_octants.has(octant);
-    return n;
-  }
-};
-
-/// What scans the children of a level's boxes: places in the order of all boxes, and where the level below ends.
-template <class Space>
-struct ScanChildren {
-  LevelBoxes<Space> parents;
-  Kokkos::View<int*, Space> first_child;
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int k, int& sum, const bool is_final) const {
-    const int here = k < parents.n_most ? parents.count_children(k) : 0;
-    if (is_final) first_child(k) = parents.level_first(parents.level + 1) + sum;
-    if (is_final && k == parents.n_most) parents.level_first(parents.level + 2) = first_child(k);
-    sum += here;
-  }
-};
 
 /// Splits the boxes of a level that hold enough nodes. @param n_most  boxes that the level may have
 template <class Space>
@@ -192,6 +106,28 @@ bool note_levels(const Space& space, Octree<Space>& tree, const int level, const
 }  // namespace
 
 template <class Space>
+void make_keys(const Space& space, const ConstVectorView<Space>& nodes, const KeyOf& key_of, const int stride,
+               const KeyedOrder<Space>& keyed) {
+  const auto key = keyed.key;
+  const auto order = keyed.order;
+  launch<Space>(
+      "skein::make_morton_keys", space, Calls{math::ceil_div(nodes.extent_int(0), stride), 6.0},
+      KOKKOS_LAMBDA(const int i) {
+        key(i) = key_of(nodes, i * stride);
+        order(i) = i;
+      });
+}
+
+template <class Space>
+OctreeCube choose_cube(const Space& space, Octree<Space>& tree, const ConstVectorView<Space>& source,
+                       const ConstVectorView<Space>& target, const NodeBounds& bounds) {
+  const Nodes<Space>& more = source.extent(0) >= target.extent(0) ? source : target;
+  return choose_octree_cube(bounds, more.extent_int(0), tree.rules, [&](const KeyOf& key_of, const int stride) {
+    return sample_cells<Space>(space, more, key_of, stride, tree);
+  });
+}
+
+template <class Space>
 void split_boxes(const Space& space, Octree<Space>& tree) {
   tree.require_marks();
   const auto n_cells =
@@ -217,7 +153,11 @@ void split_boxes(const Space& space, Octree<Space>& tree) {
   }
 }
 
-#define SKEIN_INSTANTIATE(S) template void split_boxes<S>(const S&, Octree<S>&);
+#define SKEIN_INSTANTIATE(S)                                                                                     \
+  template void make_keys<S>(const S&, const ConstVectorView<S>&, const KeyOf&, int, const KeyedOrder<S>&);      \
+  template OctreeCube choose_cube<S>(const S&, Octree<S>&, const ConstVectorView<S>&, const ConstVectorView<S>&, \
+                                     const NodeBounds&);                                                         \
+  template void split_boxes<S>(const S&, Octree<S>&);
 SKEIN_FOR_EACH_EXEC_SPACE(SKEIN_INSTANTIATE)
 
 }  // namespace skein

@@ -154,9 +154,10 @@ class Bending final : public Force {
     add_by_bends("skein::add_bending_force_changes", first, n, resistance_,
                  BendChanges{nodes.position, nodes.displacement}, change);
   }
-  void add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const override {
-    energy_.add("skein::compute_bending_energy", energy, BendEnergy{resistance_, position});
+  void seek_measures(double /*time*/, const ConstVectors& position) const override {
+    energy_.seek("skein::compute_bending_energy", BendEnergy{resistance_, position});
   }
+  void add_found_energies(std::vector<double>& energy) const override { energy_.add_found(energy); }
 
   std::string describe() const override { return "bending of chains"; }
 

@@ -123,9 +123,9 @@ class Clamps final : public Force {
         });
   }
 
-  void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
+  void seek_measures(const double time, const ConstVectors& position) const override {
     const LoadedSections<Clamp> loads = loads_;
-    const Scalars of_section = of_section_;
+    const FoundReals of_section = of_section_;
     launch<ExecSpace>(
         "skein::compute_clamp_energy", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const int n = loads.section(s).n_nodes;
@@ -134,14 +134,14 @@ class Clamps final : public Force {
             return 0.5 * dot(d, d);
           });
         });
-    add_by_fibers(loads, of_section, energy);
   }
+  void add_found_energies(std::vector<double>& energy) const override { add_by_fibers(loads_, of_section_, energy); }
 
   // The rate of the energy at fixed positions: what the frames do.
   void add_drive_powers(const double time, const ConstVectors& position, const ConstVectors& /*velocity*/,
                         std::vector<double>& power) const override {
     const LoadedSections<Clamp> loads = loads_;
-    const Scalars of_section = of_section_;
+    const FoundReals of_section = of_section_;
     launch<ExecSpace>(
         "skein::compute_clamp_power", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const int n = loads.section(s).n_nodes;
@@ -149,6 +149,7 @@ class Clamps final : public Force {
             return dot(clamp.anchor(time, place, n) - x, clamp.anchor_velocity(time, place, n));
           });
         });
+    wait_for(ExecSpace());
     add_by_fibers(loads, of_section, power);
   }
 
@@ -163,8 +164,8 @@ class Clamps final : public Force {
  private:
   LoadedSections<Clamp> loads_;
   double time_scale_;
-  Scalars of_section_;    ///< [n_sections]
-  double fastest_ = 0.0;  ///< radians / time
+  FoundReals of_section_;  ///< [n_sections]
+  double fastest_ = 0.0;   ///< radians / time
 };
 
 }  // namespace

@@ -3,10 +3,9 @@
 
 #include "force_table.hpp"
 #include "motion_times.hpp"
+#include "node_sums.hpp"
 
 #include <fmt/format.h>
-
-#include <numeric>
 
 namespace skein {
 namespace {
@@ -20,6 +19,16 @@ std::vector<double> make_weights(const std::vector<Fiber>& fibers, const double 
   return weight;
 }
 
+/// Of a node, which is higher where it is less far down.
+struct WeightEnergy {
+  ConstScalars weight;
+  Vec3 down;
+  ConstVectors position;
+  KOKKOS_INLINE_FUNCTION double operator()(const int node) const {
+    return -weight(node) * dot(down, load(position, node));
+  }
+};
+
 /// The weight of fibers in the fluid, less the fluid's: the same everywhere and at all times. Its sum is not zero, so
 /// that the fluid as a whole is dragged along and velocities fall off like 1 / distance only.
 class Gravity final : public Force {
@@ -29,9 +38,7 @@ class Gravity final : public Force {
         time_scale_(find_falling_time(weight, fibers, viscosity)),
         direction_(direction / norm(direction)),
         node_weight_(to_device("skein::Gravity::node_weight", make_weights(fibers, weight))),
-        node_energy_("skein::Gravity::node_energy", node_weight_.extent(0)) {
-    for (const Fiber& fiber : fibers) n_nodes_.push_back(fiber.n_nodes());
-  }
+        energy_("skein::Gravity::node_energy", fibers, node_weight_.extent(0)) {}
 
   ForcePromises promises() const override { return {.is_conservative = true, .is_steady = true, .reach = 0}; }
 
@@ -55,19 +62,10 @@ class Gravity final : public Force {
   void add_force_changes(double /*time*/, const ConstVectors& /*position*/, const ConstVectors& /*displacement*/,
                          const Vectors& /*change*/) const override {}
 
-  void add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const override {
-    SKEIN_REQUIRE(energy.size() == n_nodes_.size(), "one energy for each fiber");
-    const ConstScalars weight = node_weight_;
-    const Scalars of_node = node_energy_;
-    const Vec3 down = direction_;
-    launch<ExecSpace>(
-        "skein::compute_gravity_energy", ExecSpace(), Calls{position.extent_int(0), 10.0},
-        KOKKOS_LAMBDA(const int i) { of_node(i) = -weight(i) * dot(down, load(position, i)); });
-    const std::vector<double> part = to_host(ConstScalars(node_energy_));
-    auto node = part.begin();
-    for (std::size_t f = 0; f < energy.size(); node += n_nodes_[f++])
-      energy[f] += std::accumulate(node, node + n_nodes_[f], 0.0);
+  void seek_measures(double /*time*/, const ConstVectors& position) const override {
+    energy_.seek("skein::compute_gravity_energy", WeightEnergy{node_weight_, direction_, position});
   }
+  void add_found_energies(std::vector<double>& energy) const override { energy_.add_found(energy); }
 
   double time_scale() const override { return time_scale_; }
 
@@ -80,8 +78,8 @@ class Gravity final : public Force {
   double weight_;
   double time_scale_;
   Vec3 direction_;
-  Scalars node_weight_, node_energy_;  ///< [n_nodes]
-  std::vector<int> n_nodes_;           ///< [n_fibers]
+  Scalars node_weight_;  ///< [n_nodes]
+  NodeSums energy_;
 };
 
 }  // namespace

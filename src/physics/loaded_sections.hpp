@@ -35,7 +35,8 @@ struct LoadedSection {
 template <class Load>
 struct LoadedSections {
   Kokkos::View<LoadedSection*, ExecSpace> section;
-  Kokkos::View<Load*, ExecSpace> load;  ///< by sections
+  Kokkos::View<Load*, ExecSpace> load;          ///< by sections
+  Kokkos::View<int*, Kokkos::HostSpace> fiber;  ///< of each section, for the host
 
   int n_sections() const { return section.extent_int(0); }
   int n_loads() const { return load.extent_int(0); }
@@ -48,12 +49,10 @@ KOKKOS_INLINE_FUNCTION void add_to_nodes(const LoadedSection& section, const Vec
     store(vectors, node, load(vectors, node) + part);
 }
 
-/// sum [fiber of the section] += value, for each section.
+/// sum [fiber of the section] += value, for each section. After a wait for the device.
 template <class Load>
-void add_by_fibers(const LoadedSections<Load>& loads, const Scalars& of_section, std::vector<double>& sum) {
-  const auto sections = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), loads.section);
-  const std::vector<double> values = to_host(ConstScalars(of_section));
-  for (std::size_t s = 0; s < values.size(); ++s) sum[sections(s).fiber] += values[s];
+void add_by_fibers(const LoadedSections<Load>& loads, const FoundReals& of_section, std::vector<double>& sum) {
+  for (int s = 0; s < loads.n_sections(); ++s) sum[static_cast<std::size_t>(loads.fiber(s))] += of_section(s);
 }
 
 /// For loads that turn sections. @param advice  the end of the message, after "points, which "
@@ -101,6 +100,8 @@ LoadedSections<Load> make_loaded_sections(const std::string& what, const std::ve
   }
   result.section = copy_to_device(("skein::" + what + "::section").c_str(), sections);
   result.load = copy_to_device(("skein::" + what + "::load").c_str(), in_order);
+  result.fiber = Kokkos::View<int*, Kokkos::HostSpace>("skein::" + what + "::fiber", sections.size());
+  for (std::size_t s = 0; s < sections.size(); ++s) result.fiber(s) = sections[s].fiber;
   return result;
 }
 

@@ -14,7 +14,7 @@ namespace skein {
 /// numbers[node] = value(node).
 template <class Value>
 struct SetNumbers {
-  Scalars numbers;
+  FoundReals numbers;
   Value value;
   KOKKOS_INLINE_FUNCTION void operator()(const int node) const { numbers(node) = value(node); }
 };
@@ -27,19 +27,28 @@ class NodeSums {
     for (const Fiber& fiber : fibers) n_nodes_.push_back(fiber.n_nodes());
   }
 
-  /// sum[fiber] += value(node) over its nodes. Waits for the device. @param sum  [n_fibers]
+  /// Launches the search for value(node) of all nodes, which is there after the next wait for the device.
   template <class Value>
-  void add(const char* label, std::vector<double>& sum, const Value& value) const {
-    SKEIN_REQUIRE(sum.size() == n_nodes_.size(), "one sum for each fiber");
+  void seek(const char* label, const Value& value) const {
     launch<ExecSpace>(label, ExecSpace(), Calls{of_node_.extent_int(0), 25.0}, SetNumbers<Value>{of_node_, value});
-    const std::vector<double> values = to_host(ConstScalars(of_node_));
-    auto node = values.begin();
+  }
+  /// sum[fiber] += what was found for its nodes. @param sum  [n_fibers]
+  void add_found(std::vector<double>& sum) const {
+    SKEIN_REQUIRE(sum.size() == n_nodes_.size(), "one sum for each fiber");
+    const double* node = of_node_.data();
     for (std::size_t f = 0; f < sum.size(); node += n_nodes_[f++])
       sum[f] += std::accumulate(node, node + n_nodes_[f], 0.0);
   }
+  /// Both, with a wait between.
+  template <class Value>
+  void add(const char* label, std::vector<double>& sum, const Value& value) const {
+    seek(label, value);
+    wait_for(ExecSpace());
+    add_found(sum);
+  }
 
  private:
-  Scalars of_node_;           ///< [n_nodes]
+  FoundReals of_node_;        ///< [n_nodes]
   std::vector<int> n_nodes_;  ///< [n_fibers]
 };
 

@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/physics/chain.hpp>
 #include <skein/physics/direct_mobility.hpp>
 #include <skein/physics/fmm_mobility.hpp>
@@ -39,6 +40,18 @@ std::unique_ptr<Mobility> make_mobility(const SceneConfig& scene, const std::sha
 
 }  // namespace
 
+void Force::add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const {
+  seek_measures(time, position);
+  wait_for(ExecSpace());
+  add_found_energies(energy);
+}
+
+double Force::compute_largest_strain(const ConstVectors& position) const {
+  seek_measures(0.0, position);
+  wait_for(ExecSpace());
+  return found_largest_strain();
+}
+
 void Force::add_moments(const std::vector<Fiber>& fibers, const double time, const ConstVectors& position,
                         std::vector<SymmetricTensor>& moment) const {
   const Vectors force("skein::Force::moment", position.extent(0));
@@ -76,15 +89,25 @@ void Physics::compute_force_changes(const double time, const ConstVectors& posit
 }
 
 std::vector<double> Physics::compute_energies(const double time, const ConstVectors& position) const {
+  for (const auto& part : forces) part->seek_measures(time, position);
+  wait_for(ExecSpace());
+  return found_energies();
+}
+
+std::vector<double> Physics::found_energies() const {
   std::vector<double> energy(fibers.size());
-  for (const auto& part : forces) part->add_energies(time, position, energy);
+  for (const auto& part : forces) part->add_found_energies(energy);
   return energy;
 }
 
-double Physics::compute_largest_strain(const ConstVectors& position) const {
-  double largest = 0.0;
-  for (const auto& part : forces) largest = std::max(largest, part->compute_largest_strain(position));
-  return largest;
+StepMeasures Physics::measure(const double time, const ConstVectors& position) const {
+  sections.seek(position);
+  for (const auto& part : forces) part->seek_measures(time, position);
+  wait_for(ExecSpace());
+  StepMeasures measures{sections.found(), found_energies()};
+  for (const auto& part : forces)
+    measures.largest_strain = std::max(measures.largest_strain, part->found_largest_strain());
+  return measures;
 }
 
 bool Physics::has_force_between_fibers() const {

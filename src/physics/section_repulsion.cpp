@@ -17,7 +17,8 @@ SectionRepulsion::SectionRepulsion(const std::vector<Fiber>& fibers, const doubl
     : strength_(strength),
       range_(range),
       sections_(fibers),
-      displacement_("skein::SectionRepulsion::displacement", static_cast<std::size_t>(sections_.n_sections())) {
+      displacement_("skein::SectionRepulsion::displacement", static_cast<std::size_t>(sections_.n_sections())),
+      energy_("skein::SectionRepulsion::energy", static_cast<std::size_t>(sections_.n_sections())) {
   SKEIN_REQUIRE(strength >= 0.0 && range > 0.0, "a repulsion has a strength of 0 or more and a range above 0");
   for (const Fiber& fiber : fibers) n_sections_.push_back(fiber.config.sections);
 }
@@ -69,14 +70,15 @@ const SectionBoxes<ExecSpace>& SectionRepulsion::locate(const SeenNodes& nodes) 
   return nodes.centroid.is_allocated() ? sections_.locate_at(nodes.centroid) : sections_.locate(nodes.position);
 }
 
-void SectionRepulsion::add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const {
+void SectionRepulsion::seek_measures(double /*time*/, const ConstVectors& position) const {
+  compute_repulsion_energy<ExecSpace>(ExecSpace(), sections_.locate(position), {strength_, range_}, energy_);
+}
+
+void SectionRepulsion::add_found_energies(std::vector<double>& energy) const {
   SKEIN_REQUIRE(energy.size() == n_sections_.size(), "one energy for each fiber");
-  const Scalars of_section("skein::SectionRepulsion::energy", displacement_.extent(0));
-  compute_repulsion_energy<ExecSpace>(ExecSpace(), sections_.locate(position), {strength_, range_}, of_section);
-  const std::vector<double> part = to_host(of_section);
-  auto section = part.begin();
+  const double* section = energy_.data();
   for (std::size_t f = 0; f < energy.size(); ++f)
-    for (const auto end = section + n_sections_[f]; section != end; ++section) energy[f] += *section;
+    for (const double* const end = section + n_sections_[f]; section != end; ++section) energy[f] += *section;
 }
 
 void SectionRepulsion::add_moments(const std::vector<Fiber>& /*fibers*/, double /*time*/, const ConstVectors& position,

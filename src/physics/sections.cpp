@@ -1,3 +1,4 @@
+#include <skein/arrays/launch.hpp>
 #include <skein/core/error.hpp>
 #include <skein/physics/sections.hpp>
 
@@ -69,7 +70,10 @@ Sections::Sections(const std::vector<Fiber>& fibers)
       boxes_(std::make_unique<SectionBoxes<ExecSpace>>(make_boxes(*fibers_, n_sections_))),
       surfaces_(std::make_unique<TubeSurfaces<ExecSpace>>(make_surfaces(*boxes_))),
       depth_("skein::Sections::depth", static_cast<std::size_t>(n_nodes_)),
-      faulty_node_("skein::Sections::faulty_node") {}
+      faulty_node_("skein::Sections::faulty_node"),
+      n_inside_("skein::Sections::n_inside"),
+      gap_("skein::Sections::gap"),
+      centreline_("skein::Sections::centreline", static_cast<std::size_t>(n_sections_)) {}
 
 Sections::~Sections() = default;
 Sections::Sections(Sections&&) noexcept = default;
@@ -84,7 +88,7 @@ int Sections::found_faulty_node() const { return faulty_node_() == no_node ? -1 
 
 int Sections::find_faulty_node(const ConstVectors& position, const double max_ratio) const {
   seek_faulty_node(position, max_ratio);
-  ExecSpace().fence();
+  wait_for(ExecSpace());
   return found_faulty_node();
 }
 
@@ -117,34 +121,50 @@ std::vector<Vec3> Sections::compute_centreline(const ConstVectors& position) con
 }
 
 double Sections::compute_smallest_gap(const ConstVectors& position) const {
-  return skein::compute_smallest_gap<ExecSpace>(ExecSpace(), locate(position));
+  seek_smallest_gap<ExecSpace>(ExecSpace(), locate(position), gap_);
+  wait_for(ExecSpace());
+  return found_gap(gap_);
 }
 
-void Sections::locate_surfaces(const ConstVectors& position) const {
+void Sections::seek_penetration(const ConstVectors& position) const {
   SKEIN_REQUIRE(position.extent_int(0) == n_nodes_, "positions are those of the fibers' nodes");
-  surfaces_->position = position;
-  skein::locate_surfaces<ExecSpace>(ExecSpace(), *surfaces_);
+  TubeSurfaces<ExecSpace> surfaces = *surfaces_;
+  surfaces.position = position;
+  locate_surfaces<ExecSpace>(ExecSpace(), surfaces);
+  seek_nodes_inside<ExecSpace>(ExecSpace(), surfaces, depth_, n_inside_);
 }
 
-/// At the positions where surfaces were located, which are let go.
-Penetration Sections::find_penetration() const {
-  const NodesInside inside = skein::compute_penetration<ExecSpace>(ExecSpace(), *surfaces_, depth_);
-  surfaces_->position = {};
-  return {inside.count, inside.depth};
+/// After a wait.
+Penetration Sections::found_penetration() const {
+  const int n = n_inside_();
+  return {n, n == 0 ? 0.0 : find_largest_depth<ExecSpace>(ExecSpace(), depth_)};
 }
 
 Penetration Sections::compute_penetration(const ConstVectors& position) const {
-  locate_surfaces(position);
-  return find_penetration();
+  seek_penetration(position);
+  wait_for(ExecSpace());
+  return found_penetration();
+}
+
+void Sections::seek(const ConstVectors& position) const {
+  seek_penetration(position);
+  Kokkos::deep_copy(ExecSpace(), centreline_, boxes_->centroid);
+  seek_smallest_gap<ExecSpace>(ExecSpace(), *boxes_, gap_);
+}
+
+SectionRecord Sections::found() const {
+  SectionRecord record;
+  record.centreline.reserve(centreline_.extent(0));
+  for (int section = 0; section < n_sections_; ++section) record.centreline.push_back(load(centreline_, section));
+  record.smallest_gap = found_gap(gap_);
+  record.penetration = found_penetration();
+  return record;
 }
 
 SectionRecord Sections::look(const ConstVectors& position) const {
-  locate_surfaces(position);
-  SectionRecord record;
-  record.centreline = to_host(ConstVectors(boxes_->centroid));
-  record.smallest_gap = skein::compute_smallest_gap<ExecSpace>(ExecSpace(), *boxes_);
-  record.penetration = find_penetration();
-  return record;
+  seek(position);
+  wait_for(ExecSpace());
+  return found();
 }
 
 const SectionBoxes<ExecSpace>& Sections::locate(const ConstVectors& position) const {

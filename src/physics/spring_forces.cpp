@@ -4,7 +4,6 @@
 #include "device_list.hpp"
 #include "force_table.hpp"
 #include "kernels/spring_force.hpp"
-#include "kernels/spring_strain.hpp"
 #include "kernels/spring_tangent.hpp"
 
 #include <algorithm>
@@ -76,7 +75,10 @@ SpringForces::SpringForces(const std::vector<SpringNetwork>& networks, const Ker
     n_sections_.push_back(network.n_sections);
     reach_ = std::max(reach_, network.stencil.reach);
   }
-  section_energy_ = Scalars("skein::section_energy", std::accumulate(n_sections_.begin(), n_sections_.end(), 0));
+  measures_ = std::make_unique<SpringMeasures<ExecSpace>>(
+      SpringMeasures<ExecSpace>{FoundReals("skein::SpringForces::section_energy", springs_->fiber_of_section.extent(0)),
+                                FoundReal("skein::SpringForces::largest_strain"),
+                                Scalars("skein::SpringForces::node_energy", springs_->fiber_of_node.extent(0))});
 }
 
 SpringForces::~SpringForces() = default;
@@ -119,19 +121,21 @@ void SpringForces::add_force_changes_on(const int first, const int n, double /*t
   add_spring_force_change<ExecSpace>(ExecSpace(), *springs_, {first, n}, nodes.position, nodes.displacement, change);
 }
 
-double SpringForces::compute_largest_strain(const ConstVectors& position) const {
-  return skein::compute_largest_strain<ExecSpace>(ExecSpace(), *springs_, position);
+void SpringForces::seek_measures(double /*time*/, const ConstVectors& position) const {
+  seek_spring_measures<ExecSpace>(ExecSpace(), *springs_, position, *measures_);
 }
 
-void SpringForces::add_energies(double /*time*/, const ConstVectors& position, std::vector<double>& energy) const {
+void SpringForces::add_found_energies(std::vector<double>& energy) const {
   SKEIN_REQUIRE(energy.size() == n_sections_.size(), "one energy for each fiber");
-  compute_section_energy<ExecSpace>(ExecSpace(), *springs_, position, section_energy_);
-  const std::vector<double> section_energy = to_host(section_energy_);
-  auto section = section_energy.begin();
+  const double* section = measures_->section_energy.data();
   for (std::size_t f = 0; f < energy.size(); ++f) {
     energy[f] += std::accumulate(section, section + n_sections_[f], 0.0);
     section += n_sections_[f];
   }
+}
+
+double SpringForces::found_largest_strain() const {
+  return std::max(0.0, measures_->largest_strain());  // of no springs, the reduction's smallest number
 }
 
 std::string SpringForces::describe() const { return "springs"; }

@@ -73,9 +73,9 @@ class Tethers final : public Force {
         });
   }
 
-  void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
+  void seek_measures(const double time, const ConstVectors& position) const override {
     const LoadedSections<Tether> loads = loads_;
-    const Scalars of_section = of_section_;
+    const FoundReals of_section = of_section_;
     launch<ExecSpace>(
         "skein::compute_tether_energy", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
@@ -87,14 +87,14 @@ class Tethers final : public Force {
           }
           of_section(s) = sum;
         });
-    add_by_fibers(loads, of_section, energy);
   }
+  void add_found_energies(std::vector<double>& energy) const override { add_by_fibers(loads_, of_section_, energy); }
 
   // The rate of the energy at fixed positions: the anchor's pull times its velocity.
   void add_drive_powers(const double time, const ConstVectors& position, const ConstVectors& /*velocity*/,
                         std::vector<double>& power) const override {
     const LoadedSections<Tether> loads = loads_;
-    const Scalars of_section = of_section_;
+    const FoundReals of_section = of_section_;
     launch<ExecSpace>(
         "skein::compute_tether_power", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
@@ -106,6 +106,7 @@ class Tethers final : public Force {
           }
           of_section(s) = sum;
         });
+    wait_for(ExecSpace());
     add_by_fibers(loads, of_section, power);
   }
 
@@ -120,7 +121,7 @@ class Tethers final : public Force {
  private:
   LoadedSections<Tether> loads_;
   double time_scale_;
-  Scalars of_section_;  ///< [n_sections]
+  FoundReals of_section_;  ///< [n_sections]
   bool is_steady_ = true;
   double fastest_swing_ = 0.0;  ///< radians / time
 };

@@ -122,7 +122,7 @@ class Torques final : public Force {
   void add_drive_powers(const double time, const ConstVectors& position, const ConstVectors& velocity,
                         std::vector<double>& power) const override {
     const LoadedSections<Torque> loads = loads_;
-    const Scalars of_section = power_;
+    const FoundReals of_section = power_;
     launch<ExecSpace>(
         "skein::compute_torque_power", ExecSpace(), Calls{loads.n_sections(), 50.0}, KOKKOS_LAMBDA(const int s) {
           const LoadedSection& section = loads.section(s);
@@ -133,6 +133,7 @@ class Torques final : public Force {
             sum += dot(cross(alpha, load(position, node) - centroid), load(velocity, node));
           of_section(s) = sum;
         });
+    wait_for(ExecSpace());
     add_by_fibers(loads, of_section, power);
   }
 
@@ -147,7 +148,7 @@ class Torques final : public Force {
  private:
   LoadedSections<Torque> loads_;
   double time_scale_;
-  Scalars power_;  ///< [n_sections]
+  FoundReals power_;  ///< [n_sections]
   bool is_steady_ = true;
   double fastest_turn_ = 0.0;  ///< radians / time
 };

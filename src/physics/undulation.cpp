@@ -130,10 +130,11 @@ class Undulations final : public Force {
                          AddWaveForce{waves_, nodes.displacement, change});
   }
 
-  void add_energies(const double time, const ConstVectors& position, std::vector<double>& energy) const override {
+  void seek_measures(const double time, const ConstVectors& position) const override {
     set_time(time);
-    sums_.add("skein::compute_undulation_energy", energy, WaveEnergy{waves_, position});
+    sums_.seek("skein::compute_undulation_energy", WaveEnergy{waves_, position});
   }
+  void add_found_energies(std::vector<double>& energy) const override { sums_.add_found(energy); }
 
   void add_drive_powers(const double time, const ConstVectors& position, const ConstVectors& /*velocity*/,
                         std::vector<double>& power) const override {

@@ -25,14 +25,15 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
 }
 
 StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report,
-                            const SectionRecord& sections) {
+                            const StepMeasures& measures) {
+  const SectionRecord& sections = measures.sections;
   StepRecord record;
   record.step = state.step;
   record.time = state.time;
   record.dt = report.dt;
   record.error = report.error;
   record.spectral_radius = report.spectral_radius;
-  record.energy = physics.compute_energies(state.time, state.position);
+  record.energy = measures.energy;
   record.smallest_gap = sections.smallest_gap;
   record.nodes_inside = sections.penetration.nodes;
   record.depth = sections.penetration.depth;

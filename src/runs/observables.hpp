@@ -18,8 +18,8 @@ std::vector<Regime> classify_frame(const std::vector<Fiber>& fibers, const Frame
 
 /// The small numbers of the step that led to `state`, but for what is counted since the start of the run: evaluations,
 /// crossings.
-/// @param sections  of the state, as Sections::look gives them
+/// @param measures  of the state
 StepRecord make_step_record(const Physics& physics, const State& state, const StepReport& report,
-                            const SectionRecord& sections);
+                            const StepMeasures& measures);
 
 }  // namespace skein

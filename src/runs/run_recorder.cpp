@@ -107,10 +107,10 @@ void RunRecorder::note_regimes(const Frame& frame) {
 }
 
 void RunRecorder::write_step_record(const State& state, const StepReport& report) {
-  SectionRecord sections = physics_.sections.look(state.position);
-  StepRecord record = make_step_record(physics_, state, report, sections);
-  crossings_ += count_crossings(physics_.fibers, centreline_, sections.centreline);
-  centreline_ = std::move(sections.centreline);
+  StepMeasures measures = physics_.measure(state.time, state.position);
+  StepRecord record = make_step_record(physics_, state, report, measures);
+  crossings_ += count_crossings(physics_.fibers, centreline_, measures.sections.centreline);
+  centreline_ = std::move(measures.sections.centreline);
   record.crossings = crossings_;
   record.evaluations = ledger_.evaluations();
   record.estimated_error = ledger_.estimated_error();
@@ -119,7 +119,7 @@ void RunRecorder::write_step_record(const State& state, const StepReport& report
   record.fmm_order = errors.order;
   record.fmm_misses = errors.n_misses;
   trajectory_.append(record);
-  for (const std::string& warning : guard_.look(record, physics_.compute_largest_strain(state.position))) {
+  for (const std::string& warning : guard_.look(record, measures.largest_strain)) {
     messages_.say(warning);
     messages_.events().write("warning", {{"time", state.time}, {"step", state.step}, {"message", warning}});
   }

@@ -118,8 +118,9 @@ Course follow(const SceneConfig& scene) {
     course.error.push_back(report.error);
     course.stages.push_back(report.stages);
     course.rejected.push_back(report.rejected);
-    const StepRecord record = make_step_record(physics, state, report, physics.sections.look(state.position));
-    course.n_warnings.push_back(guard.look(record, physics.compute_largest_strain(state.position)).size());
+    const StepMeasures measures = physics.measure(state.time, state.position);
+    const StepRecord record = make_step_record(physics, state, report, measures);
+    course.n_warnings.push_back(guard.look(record, measures.largest_strain).size());
   }
   course.regimes = classify_frame(physics.fibers, make_frame(physics, state.step, state.time, state.position));
   course.nodes = to_host(ConstVectors(state.position));

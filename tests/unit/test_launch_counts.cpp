@@ -48,7 +48,7 @@ Launches count_step(const int n_fibers) {
   const Counting counting;
   const StepReport report = integrator->advance(state, 1.0);
   EXPECT_EQ(report.stages, 2);
-  make_step_record(physics, state, report, physics.sections.look(state.position));
+  make_step_record(physics, state, report, physics.measure(state.time, state.position));
   make_frame(physics, state.step, state.time, state.position);
   return counting.so_far();
 }
@@ -101,7 +101,7 @@ TEST(LaunchCounts, OfTheSearchForFaultsIsNoWaitWhereTheCallerHasOne) {
 }
 
 // Centreline, gap and nodes in surfaces: three kernels locate sections for all of them.
-TEST(LaunchCounts, OfTheLookAtSectionsAreFiveAndACopy) {
+TEST(LaunchCounts, OfTheLookAtSectionsAreFiveACopyAndOneWait) {
   for (const int n_fibers : {1, 100}) {
     const Physics physics = test::make_direct_physics(make_scene(n_fibers));
     const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
@@ -109,8 +109,28 @@ TEST(LaunchCounts, OfTheLookAtSectionsAreFiveAndACopy) {
     const SectionRecord record = physics.sections.look(position);
     EXPECT_EQ(counting.so_far().kernels, 3);
     EXPECT_EQ(counting.so_far().reductions, 2);
+    EXPECT_EQ(counting.so_far().waits, 1);
     EXPECT_EQ(record.centreline.size(), 3u * static_cast<unsigned>(n_fibers));
   }
+}
+
+// Sections, energies of springs, repulsion and weight, and the largest strain: all are waited for together. The
+// springs' energies of nodes and their strain are one launch, those of sections another.
+TEST(LaunchCounts, OfWhatAStepsRecordMeasuresIsOneWait) {
+  SceneConfig scene = make_scene(20);
+  scene.gravity.weight = 0.1;
+  const Physics physics = test::make_direct_physics(scene);
+  const Vectors position = to_device("position", make_surface_nodes(physics.fibers));
+  const Counting counting;
+  const StepMeasures measures = physics.measure(0.0, position);
+  const Launches counted = counting.so_far();
+  EXPECT_EQ(counted.waits, 1);
+  EXPECT_EQ(counted.fences, 0);
+  EXPECT_EQ(counted.reductions, 3);
+  EXPECT_LE(counted.kernels, 9);
+  EXPECT_EQ(measures.energy, physics.compute_energies(0.0, position));
+  EXPECT_EQ(measures.largest_strain, physics.forces.front()->compute_largest_strain(position));
+  EXPECT_EQ(measures.sections.smallest_gap, physics.sections.compute_smallest_gap(position));
 }
 
 /// A piece of the paper's fibers: what is launched does not depend on its length.

@@ -24,8 +24,11 @@ using ConstScalarView = std::type_identity_t<Kokkos::View<const double*, Kokkos:
 using ExecSpace = Kokkos::DefaultExecutionSpace;
 using HostSpace = Kokkos::DefaultHostExecutionSpace;
 
-/// An integer that a kernel leaves for the host, which has it after the next wait for the device.
+/// What kernels leave for the host, which has it after the next wait for the device: an integer, a number, some of
+/// them.
 using FoundNumber = Kokkos::View<int, SharedHostMemory>;
+using FoundReal = Kokkos::View<double, SharedHostMemory>;
+using FoundReals = Kokkos::View<double*, SharedHostMemory>;
 
 using Vectors = VectorView<ExecSpace>;
 using ConstVectors = ConstVectorView<ExecSpace>;

@@ -75,7 +75,7 @@ struct RestLengths {
 };
 RestLengths find_rest_lengths(const SpringStencil& stencil);
 
-/// Energy of one fiber's springs, on the host; the device's is SpringForces::compute_energies.
+/// Energy of one fiber's springs, on the host; the device's is SpringForces::add_energies.
 /// @param position  [network.n_nodes()], length: this fiber's nodes only
 double compute_spring_energy(const SpringNetwork& network, const std::vector<Vec3>& position);
 

@@ -70,9 +70,18 @@ class Force {
     add_force_changes(time, nodes.position, nodes.displacement, change);
   }
 
-  /// Adds its energy, force * length; halves of what two fibers share. A force that has none adds nothing.
-  /// @param energy  [n_fibers]
-  virtual void add_energies(double /*time*/, const ConstVectors& /*position*/, std::vector<double>& /*energy*/) const {}
+  /// Launches the search for its energies and for the largest strain of its bonds, which are there after the next wait
+  /// for the device: several forces have one wait.
+  virtual void seek_measures(double /*time*/, const ConstVectors& /*position*/) const {}
+  /// Adds the energies that were sought last, force * length; halves of what two fibers share. A force that has none
+  /// adds nothing. @param energy  [n_fibers]
+  virtual void add_found_energies(std::vector<double>& /*energy*/) const {}
+  /// The largest relative change of length of its bonds that was sought last; 0 for a force without bonds.
+  virtual double found_largest_strain() const { return 0.0; }
+
+  /// The same for one force by itself. Wait for the device.
+  void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const;
+  double compute_largest_strain(const ConstVectors& position) const;
 
   /// Adds the power that comes from outside: of forces without an energy, force . velocity; of an energy that changes
   /// with time, its rate at fixed positions. Force * length / time. A steady conservative force adds nothing.
@@ -85,9 +94,6 @@ class Force {
   /// @param moment  [n_fibers]
   virtual void add_moments(const std::vector<Fiber>& fibers, double time, const ConstVectors& position,
                            std::vector<SymmetricTensor>& moment) const;
-
-  /// The largest relative change of length of its bonds; 0 for a force without bonds. Waits for the device.
-  virtual double compute_largest_strain(const ConstVectors& /*position*/) const { return 0.0; }
 
   /// Time in which it carries a fiber by the fiber's length, or turns it around; infinite for a force that moves
   /// nothing but what something else has moved, such as springs.

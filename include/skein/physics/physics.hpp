@@ -20,6 +20,13 @@ class SharedForces;
 class SharedNodes;
 class SumTeam;
 
+/// See Physics::measure.
+struct StepMeasures {
+  SectionRecord sections;
+  std::vector<double> energy;   ///< [n_fibers], as compute_energies
+  double largest_strain = 0.0;  ///< of bonds, over all forces
+};
+
 /// All that a scene says of the world, ready to be asked: fibers, the forces on their nodes, the flow and the fluid.
 /// Runs, analyses, benches and users of the library make it by make_physics, and may replace its parts before it is
 /// used.
@@ -48,11 +55,11 @@ struct Physics {
   void compute_force_changes(double time, const ConstVectors& position, const ConstVectors& displacement,
                              const Vectors& change) const;
 
-  /// Of all forces that have one, force * length. @returns [n_fibers]
+  /// Of all forces that have one, force * length. Waits for the device. @returns [n_fibers]
   std::vector<double> compute_energies(double time, const ConstVectors& position) const;
 
-  /// Over all forces. Waits for the device.
-  double compute_largest_strain(const ConstVectors& position) const;
+  /// What the record of a step says of its end. One wait for the device.
+  StepMeasures measure(double time, const ConstVectors& position) const;
 
   /// True where some force acts between fibers, such as one that keeps them apart.
   bool has_force_between_fibers() const;
@@ -69,6 +76,9 @@ struct Physics {
 
   /// The forces in words, a line; springs, which every scene has, are passed over. Empty where there are no others.
   std::string describe_forces() const;
+
+ private:
+  std::vector<double> found_energies() const;
 };
 
 /// The physics of a scene, whose fibers are as written (see place_fibers).

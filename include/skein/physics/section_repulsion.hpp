@@ -38,8 +38,9 @@ class SectionRepulsion final : public Force {
   void add_force_changes_on(int first, int n, double time, const SeenNodes& nodes,
                             const Vectors& change) const override;
 
+  void seek_measures(double time, const ConstVectors& position) const override;
   /// Half of a pair's energy goes to each fiber.
-  void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const override;
+  void add_found_energies(std::vector<double>& energy) const override;
 
   /// Sum over pairs of d f / 2, d from the other section's centroid and f the force on the fiber's: summed over all
   /// fibers the first moment of these forces.
@@ -54,6 +55,7 @@ class SectionRepulsion final : public Force {
   std::vector<int> n_sections_;  ///< [n_fibers]
   Sections sections_;
   Vectors displacement_;  ///< [n_sections, 3]
+  FoundReals energy_;     ///< [n_sections]
 };
 
 }  // namespace skein

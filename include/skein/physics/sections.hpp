@@ -73,8 +73,14 @@ class Sections {
   /// inside of it.
   Penetration compute_penetration(const ConstVectors& position) const;
 
-  /// Centreline, gap and penetration, for which sections are located once: in five launches and three waits.
+  /// Centreline, gap and penetration, for which sections are located once: in five launches and one wait, and one more
+  /// of each where nodes are inside of surfaces.
   SectionRecord look(const ConstVectors& position) const;
+
+  /// The same in two parts: launches the search,
+  void seek(const ConstVectors& position) const;
+  /// and says what it found, after a wait for the device.
+  SectionRecord found() const;
 
   /// Centroids, and boxes about blocks of sections and about fibers, of nodes at `position`: for kernels.
   const SectionBoxes<ExecSpace>& locate(const ConstVectors& position) const;
@@ -84,15 +90,17 @@ class Sections {
   SectionBlocks blocks_of(int first, int n) const;
 
  private:
-  void locate_surfaces(const ConstVectors& position) const;
-  Penetration find_penetration() const;
+  void seek_penetration(const ConstVectors& position) const;
+  Penetration found_penetration() const;
 
   int n_nodes_, n_sections_;
   std::unique_ptr<std::vector<FiberSections>> fibers_;
   std::unique_ptr<SectionBoxes<ExecSpace>> boxes_;
   std::unique_ptr<TubeSurfaces<ExecSpace>> surfaces_;
   Scalars depth_;  ///< [n_nodes], of nodes in surfaces, length
-  FoundNumber faulty_node_;
+  FoundNumber faulty_node_, n_inside_;
+  FoundReal gap_;
+  VectorView<SharedHostMemory> centreline_;  ///< [n_sections, 3], length
 };
 
 }  // namespace skein

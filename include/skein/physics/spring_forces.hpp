@@ -11,6 +11,8 @@ namespace skein {
 
 template <class Space>
 struct SpringArrays;
+template <class Space>
+struct SpringMeasures;
 
 /// Elastic forces of all fibers' springs.
 class SpringForces final : public Force {
@@ -33,10 +35,10 @@ class SpringForces final : public Force {
   void add_forces_on(int first, int n, double time, const SeenNodes& nodes, const Vectors& force) const override;
   void add_force_changes_on(int first, int n, double time, const SeenNodes& nodes,
                             const Vectors& change) const override;
-  void add_energies(double time, const ConstVectors& position, std::vector<double>& energy) const override;
-
-  /// The largest |r/l - 1| over all springs, r their length and l that at rest.
-  double compute_largest_strain(const ConstVectors& position) const override;
+  void seek_measures(double time, const ConstVectors& position) const override;
+  void add_found_energies(std::vector<double>& energy) const override;
+  /// |r/l - 1|, r the length of a spring and l that at rest.
+  double found_largest_strain() const override;
   std::string describe() const override;
 
  private:
@@ -44,7 +46,7 @@ class SpringForces final : public Force {
   bool by_nodes_;
   int reach_ = 0;                ///< of the farthest spring, sections
   std::vector<int> n_sections_;  ///< [n_fibers]
-  Scalars section_energy_;
+  std::unique_ptr<SpringMeasures<ExecSpace>> measures_;
 };
 
 }  // namespace skein
