@@ -135,9 +135,9 @@ collect() {
   done
   begun=()
 }
-for test in test_launch_counts test_machine_rates test_stokeslet_direct test_spring_force test_combination test_sections \
-  test_penetration test_octree_lists test_device_fmm test_section_repulsion test_implicit_parts test_restart test_force \
-  test_mobility; do
+for test in test_launch_counts test_fmm_launches test_node_checks test_machine_rates test_stokeslet_direct \
+  test_spring_force test_combination test_sections test_penetration test_octree_lists test_device_fmm \
+  test_section_repulsion test_implicit_parts test_restart test_force test_mobility; do
   together "$test" 120 "$bin/$test"
 done
 collect

@@ -15,6 +15,7 @@ class Bench(InFreshFolder):
         for name in ("single_operations_per_second", "double_operations_per_second", "bytes_per_second"):
             self.assertGreater(peaks[name], 1e7, name)
         self.assertGreater(peaks["launch_seconds"], 0.0)
+        self.assertGreater(peaks["graph_launch_seconds"], 0.0)
         self.assertGreater(peaks["wait_seconds"], 0.0)
         self.assertEqual({row["precision"] for row in report["direct"]}, {"double", "single"})
         for row in report["direct"]:

@@ -8,6 +8,7 @@ struct MachinePeaks {
   double single_operations = 0.0;
   double bandwidth = 0.0;  ///< bytes a second to and from memory, of adding two long arrays
   double launch = 0.0;     ///< seconds from one small kernel to the next
+  double graph = 0.0;      ///< the same in a graph of kernels, launched as a whole
   double wait = 0.0;       ///< seconds of a small kernel whose end is waited for
 };
 
