@@ -37,9 +37,6 @@ SampledCells sample_cells(const Space& space, const Nodes<Space>& nodes, const K
 /// Splits the boxes of a level that hold enough nodes. @param n_most  boxes that the level may have
 template <class Space>
 void split_level(const Space& space, Octree<Space>& tree, const int level, const int n_most) {
-  const auto n = static_cast<std::size_t>(n_most);
-  require_extent(tree.count, n + 1, "skein::octree::box_count");
-  require_extent(tree.octant_end, 2 * LevelBoxes<Space>::n_inner * n, "skein::octree::octant_end");
   const LevelBoxes<Space> parents(tree, level, n_most);
   launch<Space>(
       "skein::find_octants", space, Calls{LevelBoxes<Space>::n_inner * n_most, 15.0},
@@ -84,6 +81,17 @@ template <class Space>
 int choose_end(const Octree<Space>& tree, const int level) {
   if (!tree.defers_counts) return level + 1;
   return std::min(tree.cube.max_depth, std::max(tree.cube.aimed_depth + 1, level + 4));
+}
+
+/// What splitting levels [level, end) needs: before the first of them, so that no array is let go while kernels have
+/// it.
+template <class Space>
+void require_counts(Octree<Space>& tree, const int level, const int end) {
+  int n_most = 0;
+  for (int l = level; l < end; ++l) n_most = math::larger(n_most, bound_boxes(tree, l));
+  const auto n = static_cast<std::size_t>(n_most);
+  require_extent(tree.count, n + 1, "skein::octree::box_count");
+  require_extent(tree.octant_end, 2 * LevelBoxes<Space>::n_inner * n, "skein::octree::octant_end");
 }
 
 /// Notes what is below levels [level, end), which were split; what found no room is left for the next time.
@@ -148,6 +156,7 @@ void split_boxes(const Space& space, Octree<Space>& tree) {
   tree.level_first = {0, 1};
   for (int level = 0; level < tree.cube.max_depth; level = tree.n_levels() - 1) {
     const int end = choose_end(tree, level);
+    require_counts(tree, level, end);
     for (int l = level; l < end; ++l) split_level(space, tree, l, bound_boxes(tree, l));
     if (note_levels(space, tree, level, end)) return;
   }

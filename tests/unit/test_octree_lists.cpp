@@ -172,33 +172,46 @@ std::vector<Vec3> make_spiral(const int n) {
   return nodes;
 }
 
-TEST(KeySort, IsStableAndLooksAtTheLowBits) {
-  Random random(9);
-  SortSpace<ExecSpace> memory;
-  KeyedOrder<ExecSpace> keyed;
-  for (const int n : {1, 2, 31, 32, 33, 1000, 70000, 5})
-    for (const int n_bits : {3, 15, 60}) {
-      std::vector<std::uint64_t> key;
-      std::vector<int> order(static_cast<std::size_t>(n));
-      std::iota(order.begin(), order.end(), 0);
-      const std::vector<int> unsorted = order;
-      for (int i = 0; i < n; ++i)  // every key several times, so that a sort that is not stable shows
-        key.push_back((random.bits() % static_cast<std::uint64_t>(n / 3 + 1) << (n_bits > 17 ? n_bits - 17 : 0)) &
-                      ((std::uint64_t{1} << n_bits) - 1));
-      const auto key_of = [&](const int i) { return key[static_cast<std::size_t>(i)]; };
-      std::stable_sort(order.begin(), order.end(), [&](const int a, const int b) { return key_of(a) < key_of(b); });
-      for (const int few : {0, 1000}) {  // digit by digit, and by comparisons
-        keyed.require(static_cast<std::size_t>(n));
-        write_list(keyed.key, key);
-        write_list(keyed.order, unsorted);
-        sort_by_key(ExecSpace(), keyed, n, n_bits, memory, few);
-        SCOPED_TRACE(std::to_string(n) + " keys of " + std::to_string(n_bits) + " bits, " + std::to_string(few));
-        ASSERT_EQ(read_list(keyed.order, n), order);
-        const auto sorted_key = read_list(keyed.key, n);
-        for (int i = 0; i < n; ++i)
-          ASSERT_EQ(sorted_key[static_cast<std::size_t>(i)], key_of(order[static_cast<std::size_t>(i)]));
-      }
+/// Sorts in memory that was used before.
+class KeySort : public testing::Test {
+ protected:
+  void check(const int n, const int n_bits) {
+    std::vector<std::uint64_t> key;
+    std::vector<int> order(static_cast<std::size_t>(n));
+    std::iota(order.begin(), order.end(), 0);
+    const std::vector<int> unsorted = order;
+    for (int i = 0; i < n; ++i)  // every key several times, so that a sort that is not stable shows
+      key.push_back((random_.bits() % static_cast<std::uint64_t>(n / 3 + 1) << (n_bits > 17 ? n_bits - 17 : 0)) &
+                    ((std::uint64_t{1} << n_bits) - 1));
+    const auto key_of = [&](const int i) { return key[static_cast<std::size_t>(i)]; };
+    std::stable_sort(order.begin(), order.end(), [&](const int a, const int b) { return key_of(a) < key_of(b); });
+    for (const int few : {0, 1000}) {  // digit by digit, and by comparisons
+      keyed_.require(static_cast<std::size_t>(n));
+      write_list(keyed_.key, key);
+      write_list(keyed_.order, unsorted);
+      sort_by_key(ExecSpace(), keyed_, n, n_bits, memory_, few);
+      SCOPED_TRACE(std::to_string(n) + " keys of " + std::to_string(n_bits) + " bits, " + std::to_string(few));
+      ASSERT_EQ(read_list(keyed_.order, n), order);
+      const auto sorted_key = read_list(keyed_.key, n);
+      for (int i = 0; i < n; ++i)
+        ASSERT_EQ(sorted_key[static_cast<std::size_t>(i)], key_of(order[static_cast<std::size_t>(i)]));
     }
+  }
+
+ private:
+  Random random_{9};
+  SortSpace<ExecSpace> memory_;
+  KeyedOrder<ExecSpace> keyed_;
+};
+
+TEST_F(KeySort, IsStableAndLooksAtTheLowBits) {
+  for (const int n : {1, 2, 31, 32, 33, 1000, 5})
+    for (const int n_bits : {3, 15, 60}) check(n, n_bits);
+}
+
+TEST_F(KeySort, IsStableForManyKeys) {
+  for (const int n : {70000, 5})
+    for (const int n_bits : {3, 15, 60}) check(n, n_bits);
 }
 
 /// Whether counts are deferred.
