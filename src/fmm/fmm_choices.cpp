@@ -2,6 +2,7 @@
 
 #include <skein/core/error.hpp>
 #include <skein/fmm/fmm_cost.hpp>
+#include <skein/fmm/machine_rates.hpp>
 
 #include "fmm/blob_floor.hpp"
 #include "fmm/fmm_paths.hpp"
@@ -30,8 +31,9 @@ OctreeRules make_octree_rules(const FmmOptions& options, const FmmPlan& plan) {
     const auto cost = [&](const FmmWork& work, const FmmPlan& by) {
       return estimate_nanoseconds(work, by, true, options.path);
     };
+    const double node = cost({.n_sources = 2.0}, plain);  // a source and a target
     rules.costs = {cost({.near_pairs = 1.0}, plan), cost({.far_pairs = 1.0}, plan), cost({.n_boxes = 1.0}, plan),
-                   cost({.n_sources = 2.0}, plan) - cost({.n_sources = 2.0}, plain)};
+                   node - 2.0 * machine_rates(options.path).node, cost({.n_sources = 2.0}, plan) - node};
   }
   rules.has_quantized_cells = options.far_field == FarField::regularized;
   const int edge = plan.order - 1;

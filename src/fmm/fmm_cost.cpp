@@ -33,7 +33,12 @@ double estimate_nanoseconds(const FmmWork& work, const FmmPlan& plan, const bool
 double estimate_relative_cost(const FmmWork& work, const FmmPlan& plan, const bool is_symmetric,
                               const FmmOptions& options) {
   const MachineRates& rates = machine_rates(options.path);
-  const double fmm = estimate_nanoseconds(work, plan, is_symmetric, options.path) + rates.tree;
+  // Where no boxes are far from each other there are no expansions either.
+  const FmmWork near_only{.near_pairs = work.near_pairs};
+  const double sum = work.far_pairs > 0.0 ? estimate_nanoseconds(work, plan, is_symmetric, options.path)
+                                          : estimate_nanoseconds(near_only, plan, is_symmetric, options.path) +
+                                                rates.node * (work.n_sources + work.n_targets);
+  const double fmm = sum + rates.tree;
   const double n_pairs = work.n_sources * work.n_targets;
   const Precision precision = options.precision == Precision::automatic
                                   ? choose_direct_precision(rates, n_pairs, options.tolerance)

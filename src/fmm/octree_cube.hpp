@@ -11,6 +11,7 @@ namespace skein {
 struct LeafCosts {
   double near_pair = 0.0;  ///< of nodes
   double far_pair = 0.0, box = 0.0;
+  double far_node = 0.0;         ///< to and from expansions, where any boxes are far from each other
   double small_leaf_node = 0.0;  ///< more for a node than in leaves of the easy size
 
   bool operator==(const LeafCosts&) const = default;

@@ -73,6 +73,35 @@ TEST(SumCost, OfTheFastMultipoleMethodIsNeverMoreThanTheDirectSumThatItMayTurnTo
   EXPECT_LE(FmmMobility(1.0, options).relative_cost({1e5, 10.0, 0.00225}), 1.0);
 }
 
+// Blobs ask for leaves so large that none is far from another: then pairs in the precision that the tolerance allows
+// are all there is to pay, and a direct sum, which is double, costs more.
+TEST(SumCost, OfNodesThatAllMeetIsThatOfTheirPairs) {
+  const Physics physics = make_physics(make_scene(84, SumMethod::fmm, 1e-6));
+  FmmOptions options;
+  options.tolerance = 1e-6;
+  options.path = KernelPath::host;
+  options.direct_when_cheaper = true;
+  FmmMobility mobility(1.0, options);
+  const Vectors position = to_device("position", physics.make_start_nodes(1));
+  const Vectors force("force", position.extent(0)), velocity("velocity", position.extent(0));
+  Kokkos::deep_copy(force, 1.0);
+  const Sources sources{position, force, physics.blob};
+  mobility.add_velocity(sources, position, velocity);
+  const FmmStatistics& met = mobility.statistics();
+  const double n_pairs = met.work.n_sources * met.work.n_targets;
+  EXPECT_FALSE(met.used_direct_sum);
+  EXPECT_EQ(met.work.far_pairs, 0.0);
+  EXPECT_EQ(met.work.near_pairs, n_pairs);
+  EXPECT_TRUE(met.plan.near_in_single);
+  EXPECT_EQ(met.plan.tail_degree, 0) << "of which nobody has need";
+  const MachineRates& rates = machine_rates(KernelPath::host);
+  const double paid =
+      rates.symmetric_near_pair.in_single * n_pairs + rates.node * 2.0 * met.work.n_sources + rates.tree;
+  EXPECT_DOUBLE_EQ(estimate_relative_cost(met.work, met.plan, true, options),
+                   paid / rates.direct_nanoseconds(true, false, n_pairs));
+  EXPECT_LT(mobility.measure_error(sources, position, 200), 1e-6);
+}
+
 TEST(SumCost, FallsWithASymmetry) {
   SceneConfig scene = make_scene(301, SumMethod::direct), symmetric = scene;
   symmetric.symmetry.half_turn = SymmetryAxis::z;
