@@ -25,7 +25,7 @@ class EssentialTree {
   /// build  @param one_blob  of all sources; 0: they differ
   void move_nodes(Communicator& ranks, const HostOctree& tree, const UnsortedNodes<HostSpace>& own, double one_blob,
                   double scale, SortedNodes<HostSpace>& nodes);
-  /// True where every node that was moved is still in its leaf: see nodes_fit.
+  /// True where every node that was moved is still in its leaf: see seek_strays.
   bool still_fits(Communicator& ranks, const HostOctree& tree, const SortedNodes<HostSpace>& nodes) const;
 
   /// Who has which boxes.

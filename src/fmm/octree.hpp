@@ -38,7 +38,7 @@ struct Octree {
              const OctreeRules& shape);
 
   /// Launches a look whether the tree that was built last holds these nodes, moved since then by little enough: see
-  /// nodes_fit. The answer is there after the next wait for the device.
+  /// seek_strays. The answer is there after the next wait for the device.
   void ask_whether_it_fits(const Space& space, const ConstVectorView<Space>& source,
                            const ConstVectorView<Space>& target) const;
   bool still_fits() const { return n_strays() == 0; }

@@ -3,12 +3,10 @@
 #include <skein/fibers/fiber.hpp>
 #include <skein/physics/fmm_mobility.hpp>
 
+#include "tests/reference/point_cloud.hpp"
 #include "tests/support/launch_counts.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
 
 namespace skein {
 namespace {
@@ -25,11 +23,8 @@ class TubeSum {
     config.sections = sections;
     const auto fiber = make_fibers({config});
     const auto nodes = make_surface_nodes(fiber);
-    std::vector<Vec3> force;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const auto k = static_cast<double>(i);
-      force.push_back({std::cos(1.3 * k), std::sin(2.1 * k), std::cos(0.7 * k)});
-    }
+    reference::Random random(5);
+    const auto force = reference::make_random_vectors(static_cast<int>(nodes.size()), 1.0, random);
     sources_ = {to_device("position", nodes), to_device("force", force), to_device("blob", make_blobs(fiber))};
     velocity_ = Vectors("velocity", nodes.size());
   }
