@@ -59,7 +59,6 @@ Outcome measure(Case& problem, const FmmOptions& options, const int repeats, con
     problem.compute(fmm);
     outcome.error = relative_error(to_host(problem.velocity), exact);
   } else {
-    problem.compute(fmm);
     outcome.error = fmm.measure_error(problem.sources(), problem.position, 300);
   }
   outcome.statistics = fmm.statistics();

@@ -126,14 +126,13 @@ bool is_sorted(const Space& space, const KeyedOrder<Space>& sorted, const int n)
 template <class Space>
 void sort_by_key(const Space& space, KeyedOrder<Space>& sorted, const int n, const int n_bits, SortSpace<Space>& memory,
                  const int few) {
+  if (n > few && is_sorted(space, sorted, n)) return;
+  memory.spare.require(static_cast<std::size_t>(n));
   if (n <= few) {
-    memory.spare.require(static_cast<std::size_t>(n));
     sort_few(space, sorted, memory.spare, n);
     std::swap(sorted, memory.spare);
     return;
   }
-  if (is_sorted(space, sorted, n)) return;
-  memory.spare.require(static_cast<std::size_t>(n));
   if constexpr (on_host<Space>) {
     if (n <= few_of_thread) {
       sort_by_thread(sorted, memory.spare, n);

@@ -24,9 +24,6 @@ void extend(View& view, const std::size_t n) {
   if (view.extent(0) < n) Kokkos::resize(view, n + n / 2);
 }
 
-/// Integers that kernels leave for the host, which has them after the next wait.
-using FoundNumbers = Kokkos::View<int*, SharedHostMemory>;
-
 template <class Space>
 struct CopyNumbers {
   Kokkos::View<const int*, Space> from;

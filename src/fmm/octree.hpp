@@ -77,7 +77,7 @@ struct Octree {
 
   /// Counts are looked at when all boxes, and then all lists, are made: each look is a wait, of which devices have then
   /// few. What outgrows its memory is made again. Else each count is looked at before anything is made by it.
-  bool defers_counts = !on_host<Space>;
+  bool defers_counts = false;
 
   OctreeRules rules;
   OctreeCube cube;

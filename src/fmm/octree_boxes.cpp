@@ -98,7 +98,7 @@ void require_counts(Octree<Space>& tree, const int level, const int end) {
 /// @returns true where a level has no boxes that were split: the tree is complete
 template <class Space>
 bool note_levels(const Space& space, Octree<Space>& tree, const int level, const int end) {
-  const FoundNumbers& first = tree.read_marks(space, end + 2);
+  const FoundNumbers& first = tree.defers_counts ? tree.read_marks(space, end + 2) : tree.found;
   for (int l = level; l < end; ++l) {
     const int n_boxes = first(l + 2);
     if (n_boxes == tree.n_boxes()) return true;

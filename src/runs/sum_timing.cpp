@@ -38,11 +38,10 @@ class FiberSum {
     const double n_pairs = static_cast<double>(n_nodes()) * n_nodes();
     const int n_calls = on_host<ExecSpace> ? 1 : static_cast<int>(std::clamp(1e9 / n_pairs, 1.0, 50.0));
     const double seconds = time_calls([&] {
-      for (int call = 0; call < n_calls; ++call) add_to(mobility);
+      for (int call = 0; call < n_calls; ++call) mobility.add_velocity(sources_, sources_.position, velocity_);
     });
     return seconds / n_calls;
   }
-  void add_to(Mobility& mobility) const { mobility.add_velocity(sources_, sources_.position, velocity_); }
 
  private:
   Sources sources_;
@@ -69,13 +68,12 @@ FmmTiming time_fmm(const FiberConfig& fiber, const double tolerance) {
   timing.tolerance = tolerance;
   timing.seconds = sum.time(mobility);
   mobility.time_parts();
-  sum.add_to(mobility);
+  timing.error = mobility.measure_error(sum.sources(), sum.sources().position, n_checked);
   const auto& parts = mobility.statistics();
   timing.tree = parts.tree_seconds;
   timing.sort = parts.sort_seconds;
   timing.far = parts.far_seconds;
   timing.leaves = parts.leaf_seconds;
-  timing.error = mobility.measure_error(sum.sources(), sum.sources().position, n_checked);
   return timing;
 }
 

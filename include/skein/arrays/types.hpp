@@ -27,6 +27,7 @@ using HostSpace = Kokkos::DefaultHostExecutionSpace;
 /// What kernels leave for the host, which has it after the next wait for the device: an integer, a number, some of
 /// them.
 using FoundNumber = Kokkos::View<int, SharedHostMemory>;
+using FoundNumbers = Kokkos::View<int*, SharedHostMemory>;
 using FoundReal = Kokkos::View<double, SharedHostMemory>;
 using FoundReals = Kokkos::View<double*, SharedHostMemory>;
 
